@@ -1,0 +1,1 @@
+"""The thesis's genetic algorithm, written with DEAP, pymoo and PyGAD."""

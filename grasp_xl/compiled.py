@@ -1,0 +1,50 @@
+"""The one place that says how numeric kernels are compiled, and where the code is kept."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, ParamSpec, TypeVar, cast
+
+import numba
+import platformdirs
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def _cache_folder() -> str:
+    # One folder for each state of the sources: numba looks at the kernel's own file only, and
+    # would go on using code compiled from an older file that the kernel calls.
+    digest = hashlib.sha256()
+    for source in sorted(Path(__file__).parent.rglob("*.py")):
+        if b"compiled" in (text := source.read_bytes()):
+            digest.update(text)
+    return str(Path(platformdirs.user_cache_dir("grasp_xl")) / digest.hexdigest()[:16])
+
+
+CACHE_FOLDER = _cache_folder()
+
+
+def compiled(function: Callable[P, R]) -> Callable[P, R]:
+    """Compile a kernel with numba when it is first called, once a machine.
+
+    No fast-math: results are the same, bit for bit, on every machine.  The plain function stays
+    reachable as ``.py_func``.
+    """
+    settings: Any = numba.config
+    usual = settings.CACHE_DIR
+    settings.CACHE_DIR = CACHE_FOLDER
+    try:
+        kernel = numba.njit(cache=True, error_model="numpy")(function)
+    except RuntimeError:  # no folder that can be written: compile in every process
+        kernel = numba.njit(error_model="numpy")(function)
+    finally:
+        settings.CACHE_DIR = usual
+    return cast("Callable[P, R]", kernel)
+
+
+def is_compiled() -> bool:
+    """Tell whether compiled code of these sources is kept on this machine."""
+    return any(Path(CACHE_FOLDER).rglob("*.nbc"))

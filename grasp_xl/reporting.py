@@ -1,0 +1,125 @@
+"""Results as JSON objects with fixed keys, for scripts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from grasp_xl.errors import GraspError, InputError, Problem
+from grasp_xl.grasp import Grasp
+from grasp_xl.rules import TERMS, Rules
+from grasp_xl.search.result import Result
+from grasp_xl.task import Task
+
+if TYPE_CHECKING:
+    from grasp_xl.commands import Checked
+
+Json = dict[str, Any]
+
+
+def grasp_json(grasp: Grasp, rules: Rules) -> Json:
+    """Return all numbers of a grasp."""
+    normalised = dict(zip(TERMS, grasp.normalised, strict=True))
+    suction, magnets = grasp.chromosome.active
+    return {
+        "suction": list(suction),
+        "magnets": list(magnets),
+        "genes": grasp.chromosome.rows(),
+        "force_n": grasp.force_n,
+        "weight_n": grasp.weight_n,
+        "fos": grasp.fos,
+        **grasp.terms._asdict(),
+        "divergence": grasp.divergence,
+        "clearance": grasp.clearance_mm,
+        "centre_of_force": grasp.centre_of_force_mm.tolist(),
+        "normalised": {"fos": grasp.normalised_fos, **normalised},
+        "feasible": grasp.feasible,
+        "meets_all_goals": grasp.meets_all_goals,
+        "criterion": rules.criterion.name,
+        "value": grasp.value,
+    }
+
+
+def goals_json(rules: Rules) -> Json:
+    """Return the goals; a dropped one is None."""
+    base = rules.goals.base._asdict()
+    shown = {term: None if term in rules.goals.dropped else goal for term, goal in base.items()}
+    return {"fos": rules.requirements.fos, **shown}
+
+
+def run_json(result: Result, seconds: float, output: str) -> Json:
+    """Return the outcome of a genetic run."""
+    rules = result.rules
+    return {
+        "best": grasp_json(result.best, rules) if result.best else None,
+        "proved": None,
+        "benchmark": grasp_json(result.benchmark, rules),
+        "goals": goals_json(rules),
+        "seconds": seconds,
+        "generations": result.state.generation,
+        "evaluations": result.state.evaluations,
+        "seed": result.settings.seed,
+        "stop_reason": result.stop_reason,
+        "output": output,
+    }
+
+
+def new_json(task: Task, output: str) -> Json:
+    """Return what ``new`` made."""
+    return {
+        "benchmark": grasp_json(task.benchmark, task.rules),
+        "goals": goals_json(task.rules),
+        "warnings": problems_json(task.warnings),
+        "output": output,
+    }
+
+
+def check_json(checked: Checked) -> Json:
+    """Return what ``check`` found in a sound file."""
+    cups, magnets = checked.space.kinds
+    return {
+        "ok": True,
+        "problems": [],
+        "warnings": problems_json(checked.warnings),
+        "cups": cups.total,
+        "magnets": magnets.total,
+        "search_space": checked.search_space,
+        "weight_n": checked.space.part.weight_n,
+        "max_fos": checked.max_fos,
+        "floors": checked.floors._asdict(),
+    }
+
+
+def failed_check_json(error: GraspError) -> Json:
+    """Return what ``check`` found in a file that cannot be used."""
+    problems = (
+        error.problems
+        if isinstance(error, InputError)
+        else (
+            Problem(error.where, error.message, "a grasp that meets all constraints", error.hint),
+        )
+    )
+    unknown = ("cups", "magnets", "search_space", "weight_n", "max_fos", "floors")
+    return {
+        "ok": False,
+        **error_json(error),
+        "problems": problems_json(problems),
+        "warnings": [],
+        **dict.fromkeys(unknown),
+    }
+
+
+def problems_json(problems: Sequence[Problem]) -> list[Json]:
+    """Return problems or warnings."""
+    return [
+        {"where": p.where, "found": p.found, "expected": p.expected, "hint": p.hint}
+        for p in problems
+    ]
+
+
+def error_json(error: GraspError) -> Json:
+    """Return an error, and all problems where there are several."""
+    told: Json = {"error": error.message, "where": error.where, "hint": error.hint}
+    if isinstance(error, InputError):
+        told["problems"] = problems_json(error.problems)
+    return told

@@ -1,0 +1,128 @@
+"""Stop rules: small objects that say how many generations may run before they are asked again.
+
+Several combine by :func:`first_to_stop`.  The search also asks after every improvement of the best
+grasp, so that rules on the best value act at the exact generation.
+"""
+
+from __future__ import annotations
+
+import signal
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from types import FrameType
+from typing import Literal, Protocol
+
+StopReason = Literal["generations", "stall", "target", "time", "interrupted"]
+
+CHUNK = 4096
+"""Most generations between two looks at the clock: a few milliseconds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """How far a run is: generations done, the last that improved the best, the best value."""
+
+    generation: int
+    improved_at: int
+    best_value: float
+
+
+class StopRule(Protocol):
+    """A rule that ends a run."""
+
+    @property
+    def reason(self) -> StopReason:
+        """Word for the result's ``stop_reason``."""
+
+    def generations_left(self, progress: Progress) -> int:
+        """Return how many generations may run before the rule is asked again; 0 stops the run."""
+
+
+@dataclass(frozen=True, slots=True)
+class Generations:
+    """Stop at a generation number (section 6.3: 50,000)."""
+
+    limit: int
+    reason: StopReason = field(default="generations", init=False)
+
+    def generations_left(self, progress: Progress) -> int:
+        """Count down to the limit."""
+        return max(0, self.limit - progress.generation)
+
+
+@dataclass(frozen=True, slots=True)
+class Stall:
+    """Stop when the best grasp has not improved for some generations."""
+
+    patience: int
+    reason: StopReason = field(default="stall", init=False)
+
+    def generations_left(self, progress: Progress) -> int:
+        """Count down from the last improvement."""
+        return max(0, progress.improved_at + self.patience - progress.generation)
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """Stop when the best value is at or below a number."""
+
+    value: float
+    reason: StopReason = field(default="target", init=False)
+
+    def generations_left(self, progress: Progress) -> int:
+        """Go on until the value is reached."""
+        return 0 if progress.best_value <= self.value else CHUNK
+
+
+@dataclass(frozen=True, slots=True)
+class TimeLimit:
+    """Stop some seconds after the rule was made."""
+
+    seconds: float
+    reason: StopReason = field(default="time", init=False)
+    started: float = field(default_factory=time.perf_counter, init=False)
+
+    def generations_left(self, progress: Progress) -> int:  # noqa: ARG002 (the clock decides)
+        """Go on, a few milliseconds at a time, until the time is up."""
+        return 0 if time.perf_counter() - self.started >= self.seconds else CHUNK
+
+
+@dataclass(slots=True)
+class Interrupt:
+    """Stop when somebody asked for it (Ctrl-C)."""
+
+    asked: bool = False
+    reason: StopReason = field(default="interrupted", init=False)
+
+    def generations_left(self, progress: Progress) -> int:  # noqa: ARG002 (the person decides)
+        """Go on, a few milliseconds at a time, until asked to stop."""
+        return 0 if self.asked else CHUNK
+
+
+def first_to_stop(rules: Sequence[StopRule], progress: Progress) -> tuple[int, StopReason | None]:
+    """Ask all rules: generations until the first must be asked again, and who stops the run now."""
+    left = CHUNK
+    for rule in rules:
+        allowed = rule.generations_left(progress)
+        if allowed == 0:
+            return 0, rule.reason
+        left = min(left, allowed)
+    return left, None
+
+
+@contextmanager
+def stop_on_ctrl_c() -> Iterator[Interrupt]:
+    """Give a rule that Ctrl-C trips, once; a second Ctrl-C acts as usual."""
+    rule = Interrupt()
+
+    def ask(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 (signature of signal)
+        rule.asked = True
+        signal.signal(signal.SIGINT, usual)
+
+    usual = signal.signal(signal.SIGINT, ask)
+    try:
+        yield rule
+    finally:
+        signal.signal(signal.SIGINT, usual)

@@ -1,0 +1,1 @@
+"""Workbooks: the thesis's sheets, read and written.  Only this package knows cells."""

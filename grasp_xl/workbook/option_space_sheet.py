@@ -1,0 +1,152 @@
+"""Sheet ``Option Space`` (figures 25 and 26): what CAD exports, written back as it came."""
+
+from __future__ import annotations
+
+from xlsxwriter.utility import xl_rowcol_to_cell
+
+from grasp_xl.space import OptionSpace
+from grasp_xl.workbook import layout
+from grasp_xl.workbook.layout import OPTION_SPACE, Area, KindLabels
+from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.styles import Style
+
+
+def write_option_space(pen: Pen, space: OptionSpace, *, live: bool) -> None:
+    """Write the sheet.
+
+    Parameters
+    ----------
+    pen : Pen
+    space : OptionSpace
+    live : bool
+        True in a full workbook: the ideal polygon is then a formula on the approximation polygon,
+        and every value has its defined name.  False as CAD exports it: values only.
+    """
+    _headers(pen)
+    _sections(pen, space, live=live)
+    _locations(pen, space, live=live)
+    _polygon(pen, space, live=live)
+    if live:
+        _approximation(pen, space)
+        _details(pen, space)
+    pen.sheet.freeze_panes(layout.FIRST_LOCATION_ROW, layout.INDEX_COLUMN + 1)
+    pen.sheet.set_column(0, 0, 30)
+    pen.sheet.set_column(1, layout.POLYGON_COLUMN - 1, 11)
+    pen.sheet.set_column(layout.POLYGON_COLUMN, layout.POLYGON_COLUMN, 13)
+    pen.sheet.set_column(layout.DETAIL_COLUMN, layout.DETAIL_COLUMN, 26)
+    pen.sheet.set_column(layout.DETAIL_COLUMN + 1, layout.DETAIL_COLUMN + 1, 24)
+
+
+def _headers(pen: Pen) -> None:
+    pen.write(0, 0, layout.TITLE, Style.TITLE)
+    pen.row(1, 0, ("Attribute", "Value", layout.INDEX_LABEL), Style.HEADER)
+    for labels in layout.KINDS:
+        header = Area(OPTION_SPACE, layout.LOCATION_HEADER_ROW, labels.column, 1, 3)
+        pen.span(header, labels.locations_label, Style.HEADER)
+        pen.row(2, labels.column, ("(mm)",) * 3, Style.UNIT)
+        pen.row(3, labels.column, ("X", "Y", "Z"), Style.HEADER)
+
+
+def _sections(pen: Pen, space: OptionSpace, *, live: bool) -> None:
+    centroid = space.part.centroid_mm.tolist()
+    values: list[tuple[layout.Section, tuple[CellValue, ...]]] = [
+        (layout.PART, (space.part.mass_g, *centroid))
+    ]
+    for labels, kind in zip(layout.KINDS, space.kinds, strict=True):
+        counts = (kind.count_min, kind.count_max)
+        rest = (kind.force_n, kind.price, kind.weight_g, kind.total)
+        values.append((labels.section, (*counts, *rest)))
+    for section, data in values:
+        pen.row(section.row, 0, (section.heading, None), Style.HEADING)
+        for field, value in zip(section.fields, data, strict=True):
+            row = section.row_of(field.name)
+            pen.write(row, 0, field.label, Style.LABEL)
+            pen.write(row, 1, value, Style.INPUT)
+            if live:
+                pen.name_area(field.name, Area(OPTION_SPACE, row, 1))
+
+
+def _locations(pen: Pen, space: OptionSpace, *, live: bool) -> None:
+    first = layout.FIRST_LOCATION_ROW
+    longest = max(kind.total for kind in space.kinds)
+    for index in range(1, longest + 1):
+        pen.write(first + index - 1, layout.INDEX_COLUMN, index, Style.MARK)
+    for labels, kind in zip(layout.KINDS, space.kinds, strict=True):
+        for row, point in enumerate(kind.footprints_mm.tolist(), first):
+            pen.row(row, labels.column, point, Style.COORDINATE)
+        if kind.overlap is not None:
+            pen.write(first - 1, layout.OVERLAP_COLUMN, layout.OVERLAP_LABEL, Style.HEADER)
+            for row, fraction in enumerate(kind.overlap.tolist(), first):
+                pen.write(row, layout.OVERLAP_COLUMN, fraction, Style.RATIO)
+        if live and kind.total:
+            area = Area(OPTION_SPACE, first, labels.column, kind.total, 3)
+            pen.name_area(labels.locations_name, area)
+
+
+def _polygon(pen: Pen, space: OptionSpace, *, live: bool) -> None:
+    left = layout.POLYGON_COLUMN
+    pen.write(0, left, layout.SCALE_FACTOR.label, Style.LABEL)
+    pen.write(0, left + 1, space.scale_factor, Style.INPUT)
+    pen.row(layout.POLYGON_HEADER_ROW, left, layout.POLYGON_HEADER, Style.HEADER)
+    first = layout.POLYGON_HEADER_ROW + 1
+    for number, point in enumerate(space.ideal_polygon_mm.tolist()):
+        row = first + number
+        pen.write(row, left, number + 1, Style.MARK)
+        for axis, coordinate in enumerate(point):
+            formula = _scaled(row, axis) if live else None
+            pen.write(row, left + 1 + axis, coordinate, Style.COORDINATE, formula)
+    row = first + len(space.ideal_polygon_mm) + 1
+    pen.write(row, left, layout.CENTROID_LABEL, Style.LABEL)
+    for axis, field in enumerate(layout.PART.fields[1:]):
+        centre = float(space.part.centroid_mm[axis])
+        formula = field.name if live else None
+        pen.write(row, left + 1 + axis, centre, Style.COORDINATE, formula)
+    if live:
+        pen.name_area(layout.SCALE_FACTOR.name, Area(OPTION_SPACE, 0, left + 1))
+        area = Area(OPTION_SPACE, first, left + 1, len(space.ideal_polygon_mm), 3)
+        pen.name_area(layout.IDEAL_POLYGON, area)
+
+
+def _scaled(row: int, axis: int) -> str:
+    centre = layout.PART.fields[1 + axis].name
+    corner = xl_rowcol_to_cell(row, layout.APPROXIMATION_COLUMN + 1 + axis)
+    return f"{centre}+{layout.SCALE_FACTOR.name}*({corner}-{centre})"
+
+
+def _approximation(pen: Pen, space: OptionSpace) -> None:
+    left = layout.APPROXIMATION_COLUMN
+    polygon = space.approximation_polygon_mm.tolist()
+    pen.write(0, left, layout.APPROXIMATION_LABEL, Style.LABEL)
+    pen.row(layout.POLYGON_HEADER_ROW, left, layout.POLYGON_HEADER, Style.HEADER)
+    first = layout.POLYGON_HEADER_ROW + 1
+    for row, point in enumerate(polygon, first):
+        pen.write(row, left, row - first + 1, Style.MARK)
+        pen.row(row, left + 1, point, Style.INPUT_COORDINATE)
+    area = Area(OPTION_SPACE, first, left + 1, len(polygon), 3)
+    pen.name_area(layout.APPROXIMATION_POLYGON, area)
+
+
+def _details(pen: Pen, space: OptionSpace) -> None:
+    rows: list[tuple[layout.Field, CellValue]] = []
+    for labels, kind in zip(layout.KINDS, space.kinds, strict=True):
+        rows += _kind_details(labels, kind.diameter_mm, kind.model)
+    for row, (field, value) in enumerate(rows):
+        pen.write(row, layout.DETAIL_COLUMN, field.label, Style.LABEL)
+        pen.write(row, layout.DETAIL_COLUMN + 1, value, Style.INPUT)
+        pen.name_area(field.name, Area(OPTION_SPACE, row, layout.DETAIL_COLUMN + 1))
+    assumed = [
+        f"{size:g} mm {labels.plural}"
+        for labels, kind, size in zip(
+            layout.KINDS, space.kinds, layout.DEFAULT_DIAMETERS_MM, strict=True
+        )
+        if kind.diameter_mm is None
+    ]
+    if assumed:
+        note = f"Where a diameter is blank, pictures assume {' and '.join(assumed)}."
+        pen.write(len(rows), layout.DETAIL_COLUMN, note, Style.NOTE)
+
+
+def _kind_details(
+    labels: KindLabels, diameter: float | None, model: str
+) -> list[tuple[layout.Field, CellValue]]:
+    return [(labels.diameter, diameter), (labels.model, model or None)]

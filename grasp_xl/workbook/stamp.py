@@ -1,0 +1,46 @@
+"""The mark by which we know a workbook that nobody touched since we wrote it."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import zipfile
+
+STAMP_PROPERTY = "grasp_xl content"
+PLACEHOLDER = "0" * 64
+STAMPED_PART = "docProps/custom.xml"
+
+
+def content_digest(archive: zipfile.ZipFile) -> str:
+    """Return a hash of all parts of a workbook but the one that holds the mark."""
+    digest = hashlib.sha256()
+    for part in sorted(archive.infolist(), key=lambda part: part.filename):
+        if part.filename != STAMPED_PART:
+            digest.update(f"{part.filename} {part.CRC:08x} {part.file_size}\n".encode())
+    return digest.hexdigest()
+
+
+def stamped(content: bytes) -> bytes:
+    """Return a workbook with the placeholder of its mark replaced by the mark."""
+    written = io.BytesIO()
+    with (
+        zipfile.ZipFile(io.BytesIO(content)) as plain,
+        zipfile.ZipFile(written, "w", zipfile.ZIP_DEFLATED) as marked,
+    ):
+        mark = content_digest(plain).encode()
+        for part in plain.infolist():
+            data = plain.read(part)
+            if part.filename == STAMPED_PART:
+                data = data.replace(PLACEHOLDER.encode(), mark)
+            marked.writestr(part, data)
+    return written.getvalue()
+
+
+def is_untouched(content: bytes) -> bool:
+    """Tell whether a workbook is one of ours, just as we wrote it."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            mark = content_digest(archive).encode()
+            return mark in archive.read(STAMPED_PART)
+    except (zipfile.BadZipFile, KeyError):
+        return False

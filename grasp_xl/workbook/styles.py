@@ -1,0 +1,92 @@
+"""Looks of cells, each said once.
+
+Colours are told apart by the colour-blind; the two gene rows are orange and green as in the
+thesis's figure 34, cups cyan and magnets magenta as in its option-space pictures.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import Any
+
+from xlsxwriter import Workbook
+from xlsxwriter.format import Format
+
+FONT = "Arial"
+
+CYAN = "#00A0B0"
+MAGENTA = "#C2187A"
+GREEN = "#2E8B57"
+BLUE = "#1F5FBF"
+RED = "#C8102E"
+GREY = "#8A8A8A"
+BLACK = "#202020"
+
+_LINE = {"border": 1, "border_color": "#BFBFBF"}
+_COMPUTED = {**_LINE, "bg_color": "#F3F5F7"}
+_INPUT = {**_LINE, "bg_color": "#FFF8D6", "font_color": "#1F3FBF"}
+
+
+class Style(Enum):
+    """What a cell is: a name of its own, and its look."""
+
+    @property
+    def look(self) -> dict[str, Any]:
+        """Format properties."""
+        properties: dict[str, Any] = self.value[1]
+        return properties
+
+    TITLE = "title", {"bold": True, "font_size": 12}
+    HEADING = "heading", {"bold": True, "bg_color": "#DCE6F1", **_LINE}
+    CARD_TITLE = (
+        "card_title",
+        {"bold": True, "bg_color": "#24456B", "font_color": "#FFFFFF", **_LINE},
+    )
+    HEADER = "header", {"bold": True, "align": "center", "bg_color": "#EDEDED", **_LINE}
+    STACKED_HEADER = (
+        "stacked_header",
+        {
+            "bold": True,
+            "align": "center",
+            "valign": "vcenter",
+            "text_wrap": True,
+            "bg_color": "#EDEDED",
+            **_LINE,
+        },
+    )
+    LABEL = "label", {**_LINE}
+    UNIT = "unit", {"align": "center", "font_color": "#6A6A6A", "italic": True, **_LINE}
+    NOTE = "note", {"font_color": "#5A5A5A", "italic": True}
+    WARNING = "warning", {"font_color": "#B00020", "bold": True}
+    INPUT = "input", {**_INPUT}
+    INPUT_TEXT = "input_text", {**_INPUT, "align": "right"}
+    INPUT_COORDINATE = "input_coordinate", {**_INPUT, "num_format": "0.0000"}
+    GOAL = "goal", {**_INPUT, "num_format": "#,##0.00####"}
+    SUCTION_GENE = "suction_gene", {"bg_color": "#FCD5B4", "align": "center", **_LINE}
+    MAGNETS_GENE = "magnets_gene", {"bg_color": "#D8E4BC", "align": "center", **_LINE}
+    MARK = "mark", {**_COMPUTED, "align": "center", "num_format": "0"}
+    COUNT = "count", {**_COMPUTED, "num_format": "#,##0"}
+    COORDINATE = "coordinate", {**_COMPUTED, "num_format": "0.0000"}
+    TORQUE = "torque", {**_COMPUTED, "num_format": "#,##0.00"}
+    FORCE = "force", {**_COMPUTED, "num_format": "#,##0.0000"}
+    MONEY = "money", {**_COMPUTED, "num_format": "#,##0.00"}
+    RATIO = "ratio", {**_COMPUTED, "num_format": "0.0000"}
+    RESULT = "result", {**_COMPUTED, "bold": True, "num_format": "#,##0.000"}
+    DIVERGENCE = "divergence", {**_COMPUTED, "bold": True, "num_format": "0.000"}
+    TEXT = "text", {**_COMPUTED}
+    CENTRED = "centred", {**_COMPUTED, "align": "center"}
+    DATE = "date", {**_COMPUTED, "num_format": "yyyy-mm-dd hh:mm:ss", "align": "left"}
+
+
+class Formats:
+    """The styles as formats of one workbook, made when first used."""
+
+    def __init__(self, book: Workbook) -> None:
+        self._book = book
+        self._made: dict[str, Format] = {}
+
+    def __getitem__(self, style: Style) -> Format:
+        if style.name not in self._made:
+            look = {"font_name": FONT, "font_size": 9, **style.look}
+            self._made[style.name] = self._book.add_format(look)
+        return self._made[style.name]
