@@ -166,6 +166,8 @@ def check(
 def new(
     file: File,
     output: Book,
+    cups: Cups = None,
+    magnets: Magnets = None,
     goals: GoalList = None,
     fos: Fos = None,
     clearance: Clearance = None,
@@ -195,7 +197,9 @@ def new(
         seed=seed,
     )
     show.compile_notice(quiet=quiet)
-    task = commands.new(file, options, commands.Output(output, force=force))
+    task = commands.new(
+        file, options, commands.Output(output, force=force), _active(cups, magnets)
+    )
     if as_json:
         _print_json(reporting.new_json(task, str(output)))
     elif not quiet:

@@ -119,7 +119,9 @@ def evaluate_grasp(path: Path, options: Parameters, grasp: Active) -> tuple[Task
     return task, evaluate(task.space, task.rules, given) if given else task.benchmark
 
 
-def new(path: Path, options: Parameters, output: Output) -> Task:
+def new(
+    path: Path, options: Parameters, output: Output, grasp: Active = (None, None)
+) -> Task:
     """Make the full workbook from an exported sheet, ready for a designer.
 
     Where the output is a workbook already, its parameters and typed chromosomes stay, and every
@@ -133,7 +135,7 @@ def new(path: Path, options: Parameters, output: Output) -> Task:
     if previous:
         book, stale = _taken_over(book, previous)
     usable = book.user_chromosome and is_usable(book.user_chromosome, book.space)
-    task = prepare(book if usable else replace(book, user_chromosome=None), options)
+    task = prepare(book if usable else replace(book, user_chromosome=None), options, grasp)
     task = replace(task, warnings=(*task.warnings, *stale))
     result = search(
         task.space, task.rules, task.settings, task.benchmark.chromosome, [Generations(0)]

@@ -183,7 +183,7 @@ def frame(space: OptionSpace, rules: Rules, trace: Trace) -> pd.DataFrame:
     for number, term in enumerate(TERMS):
         columns[f"normalised_{term}"] = np.where(feasible, normalised[:, number], np.nan)
     columns["meets_all_goals"] = meets
-    genes = trace.genes.reshape(len(trace), -1)
+    genes = trace.genes.reshape(len(trace), len(gene_columns(space)))
     columns |= dict(zip(gene_columns(space), genes.T, strict=True))
     return pd.DataFrame(columns)
 
