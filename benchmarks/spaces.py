@@ -10,9 +10,6 @@ from pathlib import Path
 
 import numpy as np
 
-from grasp_xl.chromosome import Chromosome
-from grasp_xl.rules import Goals, Requirements, Rules
-from grasp_xl.search.benchmark import assigned_benchmark
 from grasp_xl.space import ElementKind, FloatArray, OptionSpace, Part, frozen
 from grasp_xl.task import Parameters, Task, settle
 from grasp_xl.workbook.writing import export_workbook

@@ -14,12 +14,17 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 
+CONSTANTS = ("chromosome.py", "mutation.py", "rules.py")
+"""Files whose constants kernels use: they become part of the compiled code."""
+
+
 def _cache_folder() -> str:
     # One folder for each state of the sources: numba looks at the kernel's own file only, and
     # would go on using code compiled from an older file that the kernel calls.
     digest = hashlib.sha256()
     for source in sorted(Path(__file__).parent.rglob("*.py")):
-        if b"compiled" in (text := source.read_bytes()):
+        text = source.read_bytes()
+        if b"@compiled" in text or source.name in CONSTANTS:
             digest.update(text)
     return str(Path(platformdirs.user_cache_dir("grasp_xl")) / digest.hexdigest()[:16])
 

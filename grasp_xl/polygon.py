@@ -32,6 +32,7 @@ def is_star_shaped(polygon: FloatArray, centre: FloatArray) -> bool:
 
     Examples
     --------
+    >>> import numpy as np
     >>> square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
     >>> is_star_shaped(square, np.array([1.0, 1.0])), is_star_shaped(square, np.array([3.0, 1.0]))
     (True, False)

@@ -82,9 +82,7 @@ class NumpyRules:
         genes[marks] = self.low[marks] + drawn.astype(np.int64)
         return genes
 
-    def clear_child(
-        self, rng: np.random.Generator, parent: IntArray, marks: IntArray
-    ) -> IntArray:
+    def clear_child(self, rng: np.random.Generator, parent: IntArray, marks: IntArray) -> IntArray:
         """Mutate the parent until the child keeps the clearance, with the two escapes."""
         for attempt in range(2 * TRIES_PER_MATRIX):
             if attempt == TRIES_PER_MATRIX:
@@ -98,7 +96,7 @@ class NumpyRules:
         """Tell whether only the diagonal of the distances is below the clearance."""
         counts = self.counts[tuple(genes[:: self.row].tolist())]
         places = genes[counts.columns] + counts.offsets
-        near = self.squared[places[:, None], places] < self.clearance_squared
+        near = self.squared_distances(places) < self.clearance_squared
         return int(np.count_nonzero(near)) == len(places)
 
     def value(self, genes: IntArray) -> float:
@@ -111,14 +109,22 @@ class NumpyRules:
         terms = (
             counts.cost,
             arm * self.weight,
-            float(self.deviation[places].sum()) / len(places),
+            float(self.deviations(places).sum()) / len(places),
             self.structure(places),
         )
         return sum(term / scale for term, scale in zip(terms, self.scales, strict=True))
 
+    def squared_distances(self, places: IntArray) -> FloatArray:
+        """Look up the squared plan-view distances, ``(n, n)`` (mm^2)."""
+        return self.squared[places[:, None], places]
+
+    def deviations(self, places: IntArray) -> FloatArray:
+        """Look up the distances to the ideal polygon, ``(n,)`` (mm)."""
+        return self.deviation[places]
+
     def structure(self, places: IntArray) -> float:
         """Return R l_max plus all branches, the smallest over the longest pairs (mm)."""
-        squared = self.squared[places[:, None], places]
+        squared = self.squared_distances(places)
         longest = squared.max()
         if longest == 0.0:
             return 0.0

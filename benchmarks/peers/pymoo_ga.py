@@ -2,8 +2,8 @@
 
 A generation is one call of the mutation operator with all four offspring, so the shared matrix fits
 pymoo as it is.  ``FitnessSurvival`` keeps the best of parent and offspring; duplicates are kept.
-pymoo has no step without crossover that copies: its ``NoCrossover`` hands the parent itself on, four
-times the same object, to be mutated in place.  The base crossover with probability 0 copies.
+pymoo's ``NoCrossover`` does not copy: it hands on the parent itself, four times the same object, to
+be mutated in place.  The base crossover with probability 0 copies.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class SharedMatrixMutation(Mutation):
         super().__init__()
         self.rules, self.rng, self.one_in = rules, rng, one_in
 
-    def _do(self, problem: object, parents: IntArray, **_: object) -> IntArray:
+    def _do(self, _: object, parents: IntArray, **__: object) -> IntArray:
         marks = self.rules.mutation_matrix(self.rng, self.one_in)
         return np.array([self.rules.clear_child(self.rng, row, marks) for row in parents])
 

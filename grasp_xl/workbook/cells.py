@@ -7,18 +7,26 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 from openpyxl import Workbook
+from openpyxl.chartsheet import Chartsheet
 
 from grasp_xl.errors import InputError, Problem
-from grasp_xl.workbook.layout import SHEETS, Area, Field, area_of, place
-from grasp_xl.workbook.package import Package, open_workbook, sheet_rows
+from grasp_xl.workbook.layout import SHEETS, Area, Field, area_of
+from grasp_xl.workbook.package import MAX_ROWS, Package, open_workbook, sheet_rows
 
 MAX_NUMBER = 1e9
 """Largest magnitude of any number: no mass in g or place in mm comes near it."""
 
-MAX_COLUMNS = 1_000
-"""Columns that are looked at on a sheet."""
+MIN_DISTANCE = 1e-9
+"""How far a number must keep from a bound that it may not touch, since others are divided by it."""
+
+MAX_FILLED_ROWS = 250_000
+"""Rows of one sheet that hold anything: the longest list of footprints, and room for more."""
+
+MAX_CELLS = 10_000_000
+"""Cells of one sheet, in each row up to the last one that the file has."""
 
 MAX_PROBLEMS = 50
 """Problems that are named; a list of all would help nobody."""
@@ -28,7 +36,24 @@ LABEL_ROWS = 500
 
 ERROR_VALUES = ("#N/A", "#REF!", "#DIV/0!", "#VALUE!", "#NAME?", "#NUM!", "#NULL!")
 
+_AS_FAR_AS_A_ROW_GOES = 0
+_MAX_DIGITS = 20  # of a whole number that a message shows
+
 Value = object
+
+
+class Fault(NamedTuple):
+    """Why a value is no usable number, and what to do about it."""
+
+    found: str
+    hint: str
+
+
+EMPTY = Fault("an empty cell", "type a number there")
+UNCALCULATED = Fault(
+    "a formula without a stored value",
+    "open the workbook in Excel or LibreOffice and save it, so that it stores values",
+)
 
 
 class Grid:
@@ -38,26 +63,28 @@ class Grid:
         self.sheet = sheet
         self.rows = rows
 
-    @property
-    def last_row(self) -> int:
-        """Last row that holds anything; -1 on an empty sheet."""
-        return max(self.rows, default=-1)
-
     def at(self, row: int, column: int) -> Value:
         """Value of a cell, None where there is none."""
         cells = self.rows.get(row, ())
         return cells[column] if column < len(cells) else None
 
-    def find(self, label: str, *, column: int | None = None, below: int = -1) -> Area | None:
-        """Find the first cell that holds a label, among the sheet's first rows."""
+    def places(
+        self, label: str, *, rows: range = range(LABEL_ROWS), column: int | None = None
+    ) -> Iterator[Area]:
+        """Iterate over the cells that hold a label, row by row."""
         wanted = normal(label)
-        for row in sorted(row for row in self.rows if below < row < LABEL_ROWS):
-            for number, value in enumerate(self.rows[row]):
-                if column is not None and number != column:
+        for row in rows:
+            for number, value in enumerate(self.rows.get(row, ())):
+                if column not in (None, number) or not isinstance(value, str):
                     continue
-                if isinstance(value, str) and normal(value) == wanted:
-                    return Area(self.sheet, row, number)
-        return None
+                if normal(value) == wanted:
+                    yield Area(self.sheet, row, number)
+
+    def find(
+        self, label: str, *, rows: range = range(LABEL_ROWS), column: int | None = None
+    ) -> Area | None:
+        """Find the first cell that holds a label."""
+        return next(self.places(label, rows=rows, column=column), None)
 
 
 def normal(text: str) -> str:
@@ -65,14 +92,50 @@ def normal(text: str) -> str:
     return " ".join(text.split()).casefold()
 
 
-def read_grid(package: Package, book: Workbook, sheet: str) -> Grid:
-    """Read all values of a sheet."""
-    rows: dict[int, tuple[Value, ...]] = {}
-    for number, cells in sheet_rows(package, book[sheet], MAX_COLUMNS):  # type: ignore[arg-type]
-        values = tuple(cell.value for cell in cells)
-        if any(value is not None for value in values):
-            rows[number - 1] = values
-    return Grid(sheet, rows)
+def is_blank(value: Value) -> bool:
+    """Tell whether there is nothing, or white space only."""
+    return value is None or (isinstance(value, str) and not value.strip())
+
+
+def read_grid(
+    package: Package, book: Workbook, sheet: str, *, formulas: bool = False, rows: int = MAX_ROWS
+) -> Grid:
+    """Read the values of a sheet's first rows, or its formulas alone.
+
+    Raises
+    ------
+    InputError
+        If the sheet is larger than any option space.
+    """
+    worksheet = book[sheet]
+    filled: dict[int, tuple[Value, ...]] = {}
+    if isinstance(worksheet, Chartsheet):
+        return Grid(sheet, filled)
+    size = 0
+    for number, cells in sheet_rows(package, worksheet, _AS_FAR_AS_A_ROW_GOES):  # type: ignore[arg-type]
+        if number > rows:
+            break
+        size += len(cells)
+        if formulas:
+            values = [cell.value if cell.data_type == "f" else None for cell in cells]
+        else:
+            values = [cell.value for cell in cells]
+        while values and values[-1] is None:
+            values.pop()
+        if values:
+            filled[number - 1] = tuple(values)
+        if len(filled) > MAX_FILLED_ROWS or size > MAX_CELLS:
+            raise InputError([_too_large(sheet)])
+    return Grid(sheet, filled)
+
+
+def _too_large(sheet: str) -> Problem:
+    return Problem(
+        sheet,
+        f"more than {MAX_FILLED_ROWS:,} filled rows, or {MAX_CELLS:,} cells",
+        "an option space",
+        "use a larger pitch, and move other data to another sheet",
+    )
 
 
 @dataclass
@@ -82,7 +145,7 @@ class Source:
     package: Package
     problems: list[Problem] = field(default_factory=list)
     warnings: list[Problem] = field(default_factory=list)
-    _grids: dict[tuple[str, bool], Grid] = field(default_factory=dict)
+    _grids: dict[tuple[str, bool, int], Grid] = field(default_factory=dict)
 
     @cached_property
     def values(self) -> Workbook:
@@ -117,41 +180,51 @@ class Source:
         """Sheets that are none of ours."""
         return [sheet for sheet in self.sheets if sheet not in SHEETS]
 
-    def grid(self, sheet: str, *, formulas: bool = False) -> Grid:
-        """Return the values (or formulas) of a sheet, read once."""
-        key = (sheet, formulas)
+    def grid(self, sheet: str, *, formulas: bool = False, rows: int = MAX_ROWS) -> Grid:
+        """Return the values (or formulas) of a sheet or of its first rows, read once."""
+        key = (sheet, formulas, rows)
         if key not in self._grids:
             book = self.formulas if formulas else self.values
-            self._grids[key] = read_grid(self.package, book, sheet)
+            self._grids[key] = read_grid(self.package, book, sheet, formulas=formulas, rows=rows)
         return self._grids[key]
+
+    def sheets_with(self, label: str) -> Iterator[Area]:
+        """Iterate over the label's first cell on each sheet; what stands below is not read."""
+        for sheet in self.sheets:
+            grid = read_grid(self.package, self.values, sheet, rows=LABEL_ROWS)
+            if found := grid.find(label):
+                yield found
 
     def formula(self, cell: Area) -> str | None:
         """Return the formula of a cell, without ``=``; None where it holds none."""
-        value = self.grid(cell.sheet, formulas=True).at(cell.row, cell.column)
+        rows = LABEL_ROWS if cell.row < LABEL_ROWS else MAX_ROWS
+        value = self.grid(cell.sheet, formulas=True, rows=rows).at(cell.row, cell.column)
         text = getattr(value, "text", value)  # an array formula is an object
-        return text[1:] if isinstance(text, str) and text.startswith("=") else None
+        return text.removeprefix("=") if isinstance(text, str) else None
 
-    def locate(self, sheet: str, field: Field, *, heading: Area | None = None) -> Area | None:
+    def locate(
+        self,
+        sheet: str,
+        field: Field,
+        *,
+        rows: range = range(LABEL_ROWS),
+        column: int | None = None,
+    ) -> Area | None:
         """Find an input cell: by its defined name, else right of its label."""
         if field.name in self.names:
-            area = self.names[field.name]
-            return area.cell(0, 0)
-        grid = self.grid(sheet)
-        if heading is None:
-            label = grid.find(field.label)
-        else:
-            label = grid.find(field.label, column=heading.column, below=heading.row)
+            return self.names[field.name].cell(0, 0)
+        label = self.grid(sheet).find(field.label, rows=rows, column=column)
         return label.cell(0, 1) if label else None
 
     def value(self, cell: Area) -> Value:
         """Return the value of a cell."""
         return self.grid(cell.sheet).at(cell.row, cell.column)
 
-    def complain(self, where: str, found: str, expected: str, hint: str = "") -> None:
+    def complain(self, where: str, found: str, expected: str, hint: str) -> None:
         """Note a problem; reading goes on, so that all are told at once."""
         self.problems.append(Problem(where, found, expected, hint))
 
-    def warn(self, where: str, found: str, expected: str, hint: str = "") -> None:
+    def warn(self, where: str, found: str, expected: str, hint: str) -> None:
         """Note something odd that does no harm."""
         self.warnings.append(Problem(where, found, expected, hint))
 
@@ -161,25 +234,23 @@ class Source:
         Raises
         ------
         InputError
-            With every problem, if there is any.
+            With every problem, if there is any; with a count of those after the first fifty.
         """
+        problems = self.problems[:MAX_PROBLEMS]
         if len(self.problems) > MAX_PROBLEMS:
-            more = len(self.problems) - MAX_PROBLEMS
-            rest = Problem(self.package.name, f"{more} more problems", "none", "mend these first")
-            raise InputError([*self.problems[:MAX_PROBLEMS], rest])
-        if self.problems:
-            raise InputError(self.problems)
+            rest = f"problems beyond the first {MAX_PROBLEMS}: {len(self.problems) - MAX_PROBLEMS}"
+            problems.append(Problem(self.package.name, rest, "none", "mend the first ones first"))
+        if problems:
+            raise InputError(problems)
 
     def blank(self, cell: Area) -> bool:
         """Tell whether a cell is empty, or holds white space only."""
-        value = self.value(cell)
-        empty = value is None or (isinstance(value, str) and not value.strip())
-        return empty and self.formula(cell) is None
+        return is_blank(self.value(cell)) and self.formula(cell) is None
 
     def number(
         self,
         cell: Area,
-        expected: str = "a number",
+        expected: str,
         *,
         above: float = -math.inf,
         least: float = -math.inf,
@@ -192,6 +263,7 @@ class Source:
         Parameters
         ----------
         cell : Area
+            Where it stands.
         expected : str
             Words for the message.
         above, least, most : float
@@ -201,58 +273,55 @@ class Source:
         limit : float
             Magnitude beyond which no number is believed.
         """
-        value = self.value(cell)
-        found = self.fault(cell, value, limit)
-        if found is None:
-            assert isinstance(value, int | float)  # noqa: S101 (fault() says so)
-            if not (value > above and least <= value <= most):
-                found = f"{value:g}"
-            elif whole and value != round(value):
-                found = f"the fraction {value:g}"
+        number = as_number(self.value(cell), limit)
+        if isinstance(number, float):
+            if not (above + MIN_DISTANCE <= number and least <= number <= most):
+                number = Fault(shown(number), "correct the number")
+            elif whole and not number.is_integer():
+                number = Fault(f"the fraction {shown(number)}", "type a whole number")
             else:
-                return float(value)
-        self.complain(cell.where, found, expected, _hint(found))
+                return number
+        if number is EMPTY and self.formula(cell) is not None:
+            number = UNCALCULATED
+        self.complain(cell.where, number.found, expected, number.hint)
         return None
 
-    def fault(self, cell: Area, value: Value, limit: float = MAX_NUMBER) -> str | None:
-        """Say why a cell's value is no usable number; None if it is one."""
-        if value is None or (isinstance(value, str) and not value.strip()):
-            if self.formula(cell) is not None:
-                return "a formula without a stored value"
-            return "an empty cell"
-        return number_fault(value, limit)
 
-
-def number_fault(value: Value, limit: float = MAX_NUMBER) -> str | None:
-    """Say why a value is no usable number; None if it is one."""
+def as_number(value: Value, limit: float = MAX_NUMBER) -> float | Fault:
+    """Turn a cell's value into a number, or say why it is no usable one."""
+    if is_blank(value):
+        return EMPTY
     if isinstance(value, bool):
-        return f"the truth value {str(value).upper()}"
+        return Fault(f"the truth value {str(value).upper()}", "type a number there")
     if isinstance(value, int | float):
-        if isinstance(value, float) and not math.isfinite(value):
-            return f"{value}, which is not finite"
-        return f"a number beyond {limit:g}" if abs(value) > limit else None
+        if abs(value) <= limit:  # compares exactly, however long a whole number is
+            return float(value)
+        return Fault(shown(value), f"type a number of at most {limit:,.0f}")
     if isinstance(value, datetime.date | datetime.time | datetime.timedelta):
-        return f"the date or time {value}"
+        hint = "type the number again and give the cell a number format, not a date's"
+        return Fault(f"the date or time {value}", hint)
     text = str(value)
     if text in ERROR_VALUES:
-        return f"the error value {text}"
-    return f"the text {text[:40]!r}"
+        return Fault(f"the error value {text}", "mend the formula, or type a number there")
+    hint = "type it as a number; a cell formatted as text must be reformatted first"
+    return Fault(f"the text {text[:40]!r}", hint)
 
 
-def _hint(found: str) -> str:
-    if found.startswith("a formula"):
-        return "open the workbook in Excel or LibreOffice and save it, so that it stores values"
-    if found.startswith("the text"):
-        return "type it as a number; a cell formatted as text must be reformatted first"
-    return "type a number there"
+def shown(number: float) -> str:
+    """Write a number for a message: as a person would type it.
+
+    Examples
+    --------
+    >>> shown(-8860.0), shown(2.5), shown(1e308), shown(10**400)
+    ('-8860', '2.5', '1e+308', 'a number of 401 digits')
+    """
+    if isinstance(number, int):
+        digits = len(str(abs(number)))
+        return str(number) if digits <= _MAX_DIGITS else f"a number of {digits} digits"
+    return repr(number).removesuffix(".0")
 
 
 def cells_of(area: Area) -> Iterator[Iterator[Area]]:
     """Iterate over the rows of an area, and over the cells of each."""
     for row in range(area.rows):
         yield (area.cell(row, column) for column in range(area.columns))
-
-
-def where_column(grid: Grid, row: int, column: int) -> str:
-    """Name a cell of a grid."""
-    return place(grid.sheet, row, column)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +18,17 @@ from grasp_xl.space import (
     unscaled_polygon,
 )
 from grasp_xl.workbook import layout
-from grasp_xl.workbook.cells import MAX_NUMBER, Grid, Source, Value, cells_of, number_fault
+from grasp_xl.workbook.cells import (
+    LABEL_ROWS,
+    Fault,
+    Grid,
+    Source,
+    as_number,
+    cells_of,
+    is_blank,
+    normal,
+    shown,
+)
 from grasp_xl.workbook.layout import Area, Field, KindLabels, Section, place
 from grasp_xl.workbook.package import read_package
 
@@ -33,6 +42,17 @@ MAX_VERTICES = 10_000
 """Vertices of the polygon that are read."""
 
 CENTROID_TOLERANCE_MM = 1e-6
+
+MIN_FATNESS = 1e-12
+"""Least area of what the polygon's corners span, over its extent squared; else it is a line."""
+
+SECTIONS = (layout.PART, *(labels.section for labels in layout.KINDS))
+
+A_COUNT = f"a whole number from 0 to {MAX_COUNT}"
+A_COORDINATE = "a coordinate (mm)"
+A_POLYGON = "three or more corners around an area, without crossing"
+CHOOSE_CORNERS = "correct the corners, or choose the polygon again in CAD"
+RESTORE_LABEL = "restore the label, or export the option space again"
 
 
 def open_source(path: Path) -> Source:
@@ -56,15 +76,20 @@ def read_option_space(source: Source) -> OptionSpace:
     """
     sheet = find_sheet(source)
     part = _part(source, sheet)
-    kinds = [_kind(source, sheet, labels) for labels in layout.KINDS]
-    for kind, labels in zip(kinds, layout.KINDS, strict=True):
-        _check_counts(source, sheet, labels, kind)
-    if not any(kind and kind.total for kind in kinds):
-        source.complain(sheet, "no footprints at all", "cup or magnet locations", "export it again")
+    starts = [_list_start(source, sheet, labels) for labels in layout.KINDS]
+    lists = [
+        _footprints(source, start, labels) if start else None
+        for start, labels in zip(starts, layout.KINDS, strict=True)
+    ]
+    kinds = [
+        _kind(source, sheet, labels, start, footprints)
+        for labels, start, footprints in zip(layout.KINDS, starts, lists, strict=True)
+    ]
+    _check_lists(source, sheet, starts, lists)
     polygon = _polygon(source, sheet, part)
     source.finish()
-    if part is None or polygon is None or None in kinds:  # finish() has raised
-        raise AssertionError
+    if part is None or polygon is None or None in kinds:
+        raise AssertionError("finish() has raised what is missing")
     space = OptionSpace(part, tuple(kind for kind in kinds if kind), *polygon)
     _look_at_polygon(source, sheet, space)
     return space
@@ -81,51 +106,59 @@ def find_sheet(source: Source) -> str:
     mass = layout.PART.fields[0].name
     if mass in source.names:
         return source.names[mass].sheet
-    titled = [sheet for sheet in source.sheets if source.grid(sheet).find(layout.TITLE)]
-    if len(titled) == 1:
-        return titled[0]
-    found = "no option-space sheet" if not titled else f"{len(titled)}: {', '.join(titled)}"
-    raise InputError(
-        [
-            Problem(
-                source.package.name,
-                found,
-                f"one sheet with the title {layout.TITLE!r}",
-                "export the option space from CAD into this workbook"
-                if not titled
-                else "delete or move all but one",
-            )
-        ]
-    )
+    titles = list(source.sheets_with(layout.TITLE))
+    expected = f"one sheet with the title {layout.TITLE!r}"
+    if not titles:
+        hint = "export the option space from CAD into this workbook"
+        name = source.package.name
+        raise InputError([Problem(name, "no option-space sheet", expected, hint)])
+    first, *others = titles
+    found = f"an option space besides that of the sheet {first.sheet!r}"
+    hint = "delete all but one, or move them to workbooks of their own"
+    if others:
+        raise InputError([Problem(other.where, found, expected, hint) for other in others])
+    return first.sheet
 
 
-@dataclass(frozen=True)
-class _Cells:
-    """Input cells of a section that were found, by defined name."""
-
-    found: dict[str, Area]
-
-    def get(self, name: str) -> Area | None:
-        return self.found.get(name)
+# --- labels and single values ---
 
 
-def _section(source: Source, sheet: str, section: Section) -> _Cells:
+def _usual(source: Source, sheet: str, row: int, column: int) -> Area:
+    """Return where a cell stands in relation to the title."""
+    title = source.grid(sheet).find(layout.TITLE) or Area(sheet, 0, 0)
+    return title.cell(row, column)
+
+
+def _miss(source: Source, cell: Area, label: str) -> None:
+    value = source.value(cell)
+    found = "an empty cell" if is_blank(value) else repr(value)
+    source.complain(cell.where, found, label, RESTORE_LABEL)
+
+
+def _section(source: Source, sheet: str, section: Section) -> dict[str, Area]:
+    """Find the input cells of a section, by defined name."""
     heading = source.grid(sheet).find(section.heading)
-    cells: dict[str, Area] = {}
-    for number, field in enumerate(section.fields):
-        cell = None
-        if heading or field.name in source.names:
-            cell = source.locate(sheet, field, heading=heading)
-        if cell:
-            cells[field.name] = cell
-        else:
-            source.complain(
-                place(sheet, section.row + 1 + number, 0),
-                "no such label",
-                f"{field.label!r} under {section.heading!r}",
-                "restore the label, or export the option space again",
-            )
-    return _Cells(cells)
+    rows = _section_rows(source.grid(sheet), heading) if heading else range(0)
+    column = heading.column if heading else None
+    cells = {
+        field.name: source.locate(sheet, field, rows=rows, column=column)
+        for field in section.fields
+    }
+    missing = [n for n, field in enumerate(section.fields) if cells[field.name] is None]
+    if missing and heading is None:
+        _miss(source, _usual(source, sheet, section.row, 0), f"the heading {section.heading!r}")
+    elif heading:
+        for number in missing:
+            label = f"the label {section.fields[number].label!r} under {section.heading!r}"
+            _miss(source, heading.cell(1 + number, 0), label)
+    return {name: cell for name, cell in cells.items() if cell}
+
+
+def _section_rows(grid: Grid, heading: Area) -> range:
+    """Rows from a heading to the next one: both kinds have a ``Unit price ($)``, say."""
+    below = range(heading.row + 1, LABEL_ROWS)
+    headings = (grid.find(s.heading, rows=below, column=heading.column) for s in SECTIONS)
+    return range(below.start, min((found.row for found in headings if found), default=LABEL_ROWS))
 
 
 def _part(source: Source, sheet: str) -> Part | None:
@@ -133,7 +166,7 @@ def _part(source: Source, sheet: str) -> Part | None:
     mass_cell = cells.get("PartMass")
     mass = source.number(mass_cell, "a mass above 0 g", above=0) if mass_cell else None
     centroid = [
-        source.number(cell, "a coordinate (mm)") if (cell := cells.get(name)) else None
+        source.number(cell, A_COORDINATE) if (cell := cells.get(name)) else None
         for name in ("CentroidX", "CentroidY", "CentroidZ")
     ]
     if mass is None or None in centroid:
@@ -141,45 +174,53 @@ def _part(source: Source, sheet: str) -> Part | None:
     return Part(mass, frozen(centroid))
 
 
-def _kind(source: Source, sheet: str, labels: KindLabels) -> ElementKind | None:
+# --- kinds ---
+
+
+def _kind(
+    source: Source,
+    sheet: str,
+    labels: KindLabels,
+    start: Area | None,
+    footprints: FloatArray | None,
+) -> ElementKind | None:
     cells = _section(source, sheet, labels.section)
 
     def number(suffix: str, expected: str, **bounds: float) -> float | None:
         cell = cells.get(labels.field(suffix))
-        whole = bounds.pop("whole", 0) > 0
-        return source.number(cell, expected, whole=whole, **bounds) if cell else None
+        return source.number(cell, expected, **bounds) if cell else None
 
-    bounds = {"least": 0.0, "most": float(MAX_COUNT), "whole": 1.0}
-    count_min = number("Min", f"a whole number from 0 to {MAX_COUNT}", **bounds)
-    count_max = number("Max", f"a whole number from 0 to {MAX_COUNT}", **bounds)
+    def count(suffix: str) -> int | None:
+        cell = cells.get(labels.field(suffix))
+        bounds = {"least": 0, "most": MAX_COUNT}
+        value = source.number(cell, A_COUNT, whole=True, **bounds) if cell else None
+        return None if value is None else int(value)
+
+    count_min, count_max = count("Min"), count("Max")
     force = number("Force", "a force above 0 N", above=0)
     price = number("Price", "a price of 0 $ or more", least=0)
-    total = number("Total", "a whole number of 0 or more", least=0, whole=1)
     weight_cell = cells.get(labels.field("Weight"))
     weight = None
     if weight_cell and not source.blank(weight_cell):
         weight = source.number(weight_cell, "a weight of 0 g or more, or nothing", least=0)
-    footprints = _locations(source, sheet, labels)
-    total_cell = cells.get(labels.field("Total"))
-    if footprints is not None and total is not None and total_cell and total != len(footprints):
-        source.complain(
-            total_cell.where,
-            f"{total:g}",
-            f"{len(footprints)}, the number of {labels.plural} listed",
-            "correct the total or the list, or export the option space again",
-        )
-    if None in (count_min, count_max, force, price, total) or footprints is None:
+    if footprints is not None:
+        _check_total(source, labels, cells, start, len(footprints))
+        _check_counts(source, labels, cells, count_min, count_max, len(footprints))
+    diameter, model = _diameter(source, sheet, labels.diameter), _model(source, sheet, labels.model)
+    if count_min is None or count_max is None or force is None or price is None:
+        return None
+    if footprints is None:
         return None
     return ElementKind(
         name=labels.kind,
-        force_n=force or 0.0,
-        price=price or 0.0,
-        count_min=int(count_min or 0),
-        count_max=int(count_max or 0),
+        force_n=force,
+        price=price,
+        count_min=count_min,
+        count_max=count_max,
         footprints_mm=footprints,
         weight_g=weight,
-        diameter_mm=_diameter(source, sheet, labels.diameter),
-        model=_model(source, sheet, labels.model),
+        diameter_mm=diameter,
+        model=model,
     )
 
 
@@ -196,24 +237,45 @@ def _model(source: Source, sheet: str, field: Field) -> str:
     return "" if value is None else str(value)
 
 
-def _check_counts(source: Source, sheet: str, labels: KindLabels, kind: ElementKind | None) -> None:
-    if kind is None:
+def _check_total(
+    source: Source, labels: KindLabels, cells: dict[str, Area], start: Area | None, listed: int
+) -> None:
+    cell = cells.get(labels.field("Total"))
+    if cell is None or start is None or source.value(cell) == listed:
         return
-    where = place(sheet, labels.section.row_of(labels.field("Min")), 1)
-    if labels.field("Min") in source.names:
-        where = source.names[labels.field("Min")].where
-    if kind.count_min > kind.count_max:
+    total = source.number(cell, f"{listed}, the number of {labels.plural} listed")
+    behind = start.cell(listed, 0)
+    if total is not None and source.formula(behind) is not None:
+        source.number(behind, A_COORDINATE)  # the list goes on, in formulas without values
+    elif total is not None:
         source.complain(
-            where,
-            f"a minimum of {kind.count_min}",
-            f"at most the maximum, {kind.count_max}",
-            "lower Min. or raise Max.",
+            cell.where,
+            shown(total),
+            f"{listed}, the number of {labels.plural} listed",
+            "correct the total or the list, or export the option space again",
         )
-    elif kind.count_min > kind.total:
+
+
+def _check_counts(
+    source: Source,
+    labels: KindLabels,
+    cells: dict[str, Area],
+    low: int | None,
+    high: int | None,
+    listed: int,
+) -> None:
+    if low is None:
+        return
+    where = cells[labels.field("Min")].where
+    if high is not None and low > high:
+        source.complain(
+            where, f"a minimum of {low}", f"at most the maximum, {high}", "lower Min. or raise Max."
+        )
+    elif low > listed:
         source.complain(
             where,
-            f"a minimum of {kind.count_min} but {kind.total} {labels.plural} listed",
-            f"at least {kind.count_min} footprints",
+            f"a minimum of {low}",
+            f"at most {listed}, the number of {labels.plural} listed",
             "lower Min., or fit more footprints on the part",
         )
 
@@ -221,213 +283,211 @@ def _check_counts(source: Source, sheet: str, labels: KindLabels, kind: ElementK
 # --- footprints ---
 
 
-def _locations(source: Source, sheet: str, labels: KindLabels) -> FloatArray | None:
-    grid = source.grid(sheet)
-    header = grid.find(labels.locations_label)
-    if header is None:
-        source.complain(
-            place(sheet, layout.LOCATION_HEADER_ROW, labels.column),
-            "no such label",
-            repr(labels.locations_label),
-            "restore the label, or export the option space again",
-        )
-        return None
-    first = header.row + layout.FIRST_LOCATION_ROW - layout.LOCATION_HEADER_ROW
-    column = header.column
+def _list_start(source: Source, sheet: str, labels: KindLabels) -> Area | None:
+    """Find the first coordinate of a kind's list: by name, else below its header."""
     named = source.names.get(labels.locations_name)
     if named and named.sheet == sheet and named.columns == 3:
-        first, column = named.row, named.column
-    rows = _filled_rows(grid, first, column)
-    if len(rows) > MAX_FOOTPRINTS:
+        return named.cell(0, 0)
+    header = source.grid(sheet).find(labels.locations_label)
+    if header is None:
+        usual = _usual(source, sheet, layout.LOCATION_HEADER_ROW, labels.column)
+        _miss(source, usual, f"the label {labels.locations_label!r}")
+        return None
+    return header.cell(layout.FIRST_LOCATION_ROW - layout.LOCATION_HEADER_ROW, 0)
+
+
+def _footprints(source: Source, start: Area, labels: KindLabels) -> FloatArray | None:
+    grid = source.grid(start.sheet)
+    rows = _filled_rows(grid, start)
+    length = next((n for n, row in enumerate(rows) if row != start.row + n), len(rows))
+    stray = next((row for row in rows[length:] if _has_number(grid, row, start.column)), None)
+    if stray is not None:
         source.complain(
-            place(sheet, rows[MAX_FOOTPRINTS], column),
-            f"{len(rows):,} {labels.plural}",
+            start.cell(length, 0).where,
+            f"an empty row, and a coordinate below it in row {stray + 1:,}",
+            f"a list of {labels.plural} without gaps",
+            "delete the empty rows, or what stands below them",
+        )
+        return None
+    if length > MAX_FOOTPRINTS:
+        source.complain(
+            start.cell(MAX_FOOTPRINTS, 0).where,
+            f"{length:,} {labels.plural}",
             f"at most {MAX_FOOTPRINTS:,}",
             "use a larger pitch",
         )
         return None
-    before = len(source.problems)
-    points = _coordinates(source, grid, rows, first, column)
-    index = grid.find(layout.INDEX_LABEL)
-    if index and index.row == header.row:
-        _check_index(source, grid, rows, first, index.column)
-    if len(source.problems) > before:
-        return None
-    _check_twins(source, sheet, labels, points, first, column)
-    return frozen(points.reshape(-1, 3))
-
-
-def _filled_rows(grid: Grid, first: int, column: int) -> list[int]:
-    """Rows from ``first`` on that hold anything in the three columns of a location."""
-    return sorted(
-        row
-        for row, cells in grid.rows.items()
-        if row >= first and any(value is not None for value in cells[column : column + 3])
-    )
-
-
-def _coordinates(
-    source: Source, grid: Grid, rows: list[int], first: int, column: int
-) -> FloatArray:
-    points = np.zeros((len(rows), 3))
-    for number, row in enumerate(rows):
-        if row != first + number:
-            source.complain(
-                place(grid.sheet, first + number, column),
-                "an empty row between footprints",
-                "a list without gaps",
-                "delete the empty rows, or export the option space again",
-            )
-            return points
-        values = [grid.at(row, column + axis) for axis in range(3)]
-        for axis, value in enumerate(values):
-            if type(value) is float or type(value) is int:
-                points[number, axis] = value
-    bad = ~(np.abs(points) <= MAX_NUMBER).all(axis=1)
-    for number, row in enumerate(rows):
-        cells = [grid.at(row, column + axis) for axis in range(3)]
-        if bad[number] or not all(type(value) in (int, float) for value in cells):
-            _complain_of_coordinates(source, grid, row, column, cells)
+    points = _coordinates(source, grid, start, length)
+    if points is not None:
+        _check_twins(source, start, labels, points)
     return points
 
 
-def _complain_of_coordinates(
-    source: Source, grid: Grid, row: int, column: int, values: list[Value]
-) -> None:
-    for axis, value in enumerate(values):
-        cell = Area(grid.sheet, row, column + axis)
-        found = source.fault(cell, value) if value is None else number_fault(value)
-        if found:
-            source.complain(cell.where, found, "a coordinate (mm)", "export the option space again")
+def _filled_rows(grid: Grid, start: Area) -> list[int]:
+    """Rows from the first of a list on that hold anything in its three columns."""
+    columns = slice(start.column, start.column + 3)
+    return [
+        row
+        for row, values in grid.rows.items()
+        if row >= start.row and not all(is_blank(value) for value in values[columns])
+    ]
 
 
-def _check_index(source: Source, grid: Grid, rows: list[int], first: int, column: int) -> None:
-    for number, row in enumerate(rows, 1):
-        if grid.at(row, column) != number:
-            value = grid.at(row, column)
-            source.complain(
-                place(grid.sheet, row, column),
-                "an empty cell" if value is None else f"{value!r}",
-                f"the index {number}",
-                "number the footprints 1, 2, 3, ... without gaps",
-            )
-            return
+def _has_number(grid: Grid, row: int, column: int) -> bool:
+    """Tell a footprint from a note, which may stand below a list."""
+    return any(isinstance(grid.at(row, column + axis), int | float) for axis in range(3))
 
 
-def _check_twins(
-    source: Source, sheet: str, labels: KindLabels, points: FloatArray, first: int, column: int
-) -> None:
+def _coordinates(source: Source, grid: Grid, start: Area, length: int) -> FloatArray | None:
+    before = len(source.problems)
+    points = np.zeros((length, 3))
+    for number in range(length):
+        for axis in range(3):
+            value = as_number(grid.at(start.row + number, start.column + axis))
+            if isinstance(value, Fault):
+                source.number(start.cell(number, axis), A_COORDINATE)
+            else:
+                points[number, axis] = value
+    return frozen(points) if len(source.problems) == before else None
+
+
+def _check_twins(source: Source, start: Area, labels: KindLabels, points: FloatArray) -> None:
     seen: dict[tuple[float, ...], int] = {}
     for number, point in enumerate(map(tuple, points.tolist())):
-        if point in seen:
+        first = seen.setdefault(point, number)
+        if first != number:
             source.complain(
-                place(sheet, first + number, column),
-                f"the place of index {seen[point] + 1} again",
+                start.cell(number, 0).where,
+                f"the place of index {first + 1} again",
                 f"{labels.plural} at places of their own",
                 "delete one of them, or export the option space again",
             )
-        else:
-            seen[point] = number
+
+
+def _check_lists(
+    source: Source,
+    sheet: str,
+    starts: Sequence[Area | None],
+    lists: Sequence[FloatArray | None],
+) -> None:
+    """Check what both lists must have together: a footprint, and an index beside each row."""
+    first = starts[0]
+    if first and all(footprints is not None and not len(footprints) for footprints in lists):
+        hint = "choose the faces again and export the option space again"
+        source.complain(first.where, "no footprint at all", "places of cups or magnets", hint)
+    longest = max((len(footprints) for footprints in lists if footprints is not None), default=0)
+    label = source.grid(sheet).find(layout.INDEX_LABEL)
+    if label is None:
+        return
+    index = label.cell(layout.FIRST_LOCATION_ROW - layout.LOCATION_HEADER_ROW, 0)
+    for number in range(longest):
+        value = source.value(index.cell(number, 0))
+        if value != number + 1:
+            source.complain(
+                index.cell(number, 0).where,
+                "an empty cell" if is_blank(value) else repr(value),
+                f"the index {number + 1}",
+                "number the footprints 1, 2, 3, ... without gaps",
+            )
+            return
 
 
 # --- polygon ---
 
 
 def _polygon(source: Source, sheet: str, part: Part | None) -> tuple[FloatArray, float] | None:
-    scale_cell = source.locate(sheet, layout.SCALE_FACTOR)
-    if scale_cell is None:
-        source.complain(
-            place(sheet, 0, layout.POLYGON_COLUMN),
-            "no such label",
-            repr(layout.SCALE_FACTOR.label),
-            "restore the label, or export the option space again",
-        )
+    """Read the approximation polygon and the scale factor."""
+    scale = _scale_factor(source, sheet)
+    ideal = _ideal_area(source, sheet)
+    if ideal is None:
+        usual = _usual(source, sheet, layout.POLYGON_HEADER_ROW, layout.POLYGON_COLUMN)
+        header = " ".join(layout.POLYGON_HEADER)
+        _miss(source, usual, f"the header {header!r} of the ideal polygon, in four cells")
         return None
-    scale = source.number(scale_cell, "a scale factor above 0 and at most 1", above=0, most=1)
-    ideal_area = _polygon_area(source, sheet)
-    if ideal_area is None:
-        source.complain(
-            place(sheet, layout.POLYGON_HEADER_ROW, layout.POLYGON_COLUMN),
-            "no header 'i', 'x', 'y', 'z'",
-            "the ideal deflection polygon",
-            "restore the header, or export the option space again",
-        )
-        return None
-    whole_area = source.names.get(layout.APPROXIMATION_POLYGON)
-    if whole_area and source.formula(ideal_area.cell(0, 0)) is not None:
-        polygon = _vertices(source, whole_area)
-        _check_polygon(source, whole_area, polygon)
-    else:
-        whole_area = None
-        polygon = _vertices(source, ideal_area)
-        _check_polygon(source, ideal_area, polygon)
+    typed = source.names.get(layout.APPROXIMATION_POLYGON)
+    if typed is None or not _all_formulas(source, ideal):
+        typed = ideal
+    polygon = _vertices(source, typed)
     if polygon is None or scale is None or part is None:
         return None
-    return (polygon if whole_area else unscaled_polygon(polygon, part.centroid_mm, scale)), scale
+    if typed is ideal:
+        polygon = unscaled_polygon(polygon, part.centroid_mm, scale)
+    return polygon, scale
 
 
-def _polygon_area(source: Source, sheet: str) -> Area | None:
+def _scale_factor(source: Source, sheet: str) -> float | None:
+    cell = source.locate(sheet, layout.SCALE_FACTOR)
+    if cell is None:
+        usual = _usual(source, sheet, 0, layout.POLYGON_COLUMN)
+        _miss(source, usual, f"the label {layout.SCALE_FACTOR.label!r}")
+        return None
+    return source.number(cell, "a scale factor above 0 and at most 1", above=0, most=1)
+
+
+def _ideal_area(source: Source, sheet: str) -> Area | None:
     """Find the ideal polygon's x, y, z cells: by name, else below the header i, x, y, z."""
     named = source.names.get(layout.IDEAL_POLYGON)
     if named and named.columns == 3:
         return named
     grid = source.grid(sheet)
-    below = -1
-    while header := grid.find(layout.POLYGON_HEADER[0], below=below):
-        titles = [grid.at(header.row, header.column + n) for n in range(1, 4)]
-        if [str(title).strip().lower() for title in titles] == list(layout.POLYGON_HEADER[1:]):
-            break
-        below = header.row
-    if header is None:
-        return None
-    rows = 0
-    while rows < MAX_VERTICES and _is_vertex(grid, header.row + 1 + rows, header.column):
-        rows += 1
-    return Area(sheet, header.row + 1, header.column + 1, rows, 3)
+    for header in grid.places(layout.POLYGON_HEADER[0]):
+        titles = [str(grid.at(header.row, header.column + n)) for n in range(4)]
+        if tuple(map(normal, titles)) == layout.POLYGON_HEADER:
+            first = header.cell(1, 0)
+            rows = 0
+            while _is_vertex(grid, first.cell(rows, 0)):
+                rows += 1
+            return Area(sheet, first.row, first.column + 1, rows, 3)
+    return None
 
 
-def _is_vertex(grid: Grid, row: int, column: int) -> bool:
-    cells = [grid.at(row, column + n) for n in range(4)]
-    is_centroid = isinstance(cells[0], str) and cells[0].strip() == layout.CENTROID_LABEL
-    return not is_centroid and any(cell is not None for cell in cells)
+def _is_vertex(grid: Grid, cell: Area) -> bool:
+    values = [grid.at(cell.row, cell.column + n) for n in range(4)]
+    is_centroid = isinstance(values[0], str) and normal(values[0]) == normal(layout.CENTROID_LABEL)
+    return not is_centroid and not all(is_blank(value) for value in values)
+
+
+def _all_formulas(source: Source, area: Area) -> bool:
+    """Tell whether the ideal polygon is ours, calculated from the approximation polygon."""
+    return all(source.formula(cell) is not None for row in cells_of(area) for cell in row)
 
 
 def _vertices(source: Source, area: Area) -> FloatArray | None:
-    numbers = [[source.number(cell, "a coordinate (mm)") for cell in row] for row in cells_of(area)]
-    if any(None in row for row in numbers):
+    before = len(source.problems)
+    if not 3 <= area.rows <= MAX_VERTICES:
+        expected = f"3 to {MAX_VERTICES:,} corners"
+        source.complain(area.where, f"{area.rows:,} corners", expected, CHOOSE_CORNERS)
         return None
-    return frozen(np.array(numbers, dtype=np.float64).reshape(-1, 3))
+    numbers = [[source.number(cell, A_COORDINATE) for cell in row] for row in cells_of(area)]
+    if len(source.problems) == before:
+        _check_polygon(source, area, np.array(numbers, dtype=np.float64))
+    return frozen(numbers) if len(source.problems) == before else None
 
 
-def _check_polygon(source: Source, area: Area, polygon: FloatArray | None) -> None:
-    if polygon is None:
-        return
+def _check_polygon(source: Source, area: Area, polygon: FloatArray) -> None:
     import shapely
 
-    expected = "three or more corners around an area, without crossing"
-    hint = "correct the corners, or choose the polygon again in CAD"
-    if len(polygon) < 3:
-        source.complain(area.where, f"{len(polygon)} corners", expected, hint)
-        return
-    steps = np.roll(polygon[:, :2], -1, axis=0) - polygon[:, :2]
-    repeated = np.flatnonzero(~steps.any(axis=1))
+    corners = polygon[:, :2]
+    steps = np.roll(corners, -1, axis=0) - corners
+    (repeated,) = np.nonzero(~steps.any(axis=1))
     if len(repeated):
-        row = area.cell(int(repeated[0] + 1) % len(polygon), 0)
-        source.complain(row.where, "the corner before it again", expected, "delete this corner")
+        row = min(int(repeated[0]) + 1, len(polygon) - 1)  # of a closed outline, the last
+        where = area.cell(row, 0).where
+        source.complain(where, "the corner next to it again", A_POLYGON, "delete this corner")
         return
-    outline = shapely.Polygon(polygon[:, :2])
-    extent = np.ptp(polygon[:, :2], axis=0).max()
-    if outline.area <= 1e-12 * extent * extent:
-        source.complain(area.where, "a polygon without area", expected, hint)
+    outline = shapely.Polygon(corners)
+    spanned = outline.convex_hull.area / float(np.ptp(corners, axis=0).max()) ** 2
+    if spanned <= MIN_FATNESS:
+        source.complain(area.where, "a polygon without area", A_POLYGON, CHOOSE_CORNERS)
     elif not outline.is_valid:
-        reason = shapely.is_valid_reason(outline)
-        source.complain(area.where, f"a polygon that crosses itself ({reason})", expected, hint)
+        found = f"a polygon that crosses itself ({shapely.is_valid_reason(outline)})"
+        source.complain(area.where, found, A_POLYGON, CHOOSE_CORNERS)
 
 
 def _look_at_polygon(source: Source, sheet: str, space: OptionSpace) -> None:
     """Warn of a polygon that the deviation criterion was not made for (section 3.2)."""
-    area = _polygon_area(source, sheet)
-    where = area.where if area else sheet
+    area = _ideal_area(source, sheet)
+    where = area.where if area else place(sheet, 0, 0)
     polygon, centroid = space.approximation_polygon_mm, space.part.centroid_mm
     if not contains(polygon, centroid):
         source.warn(
@@ -445,15 +505,19 @@ def _look_at_polygon(source: Source, sheet: str, space: OptionSpace) -> None:
         )
     repeated = source.grid(sheet).find(layout.CENTROID_LABEL)
     if repeated:
-        cells = [source.value(repeated.cell(0, axis)) for axis in range(1, 4)]
-        for axis, value in enumerate(cells):
-            apart = isinstance(value, int | float) and abs(
-                value - space.part.centroid_mm[axis]
-            ) > CENTROID_TOLERANCE_MM * max(1.0, abs(space.part.centroid_mm[axis]))
-            if apart and math.isfinite(float(str(value))):
-                source.warn(
-                    repeated.cell(0, 1 + axis).where,
-                    f"{value:g}",
-                    f"the part's centroid, {space.part.centroid_mm[axis]:g}",
-                    "it is not used; export the option space again if in doubt",
-                )
+        _look_at_centroid(source, repeated, centroid)
+
+
+def _look_at_centroid(source: Source, label: Area, centroid: FloatArray) -> None:
+    """Warn where the centroid under the polygon is not the part's."""
+    for axis, coordinate in enumerate(centroid.tolist()):
+        cell = label.cell(0, 1 + axis)
+        value = as_number(source.value(cell))
+        tolerance = CENTROID_TOLERANCE_MM * max(1.0, abs(coordinate))
+        if isinstance(value, float) and abs(value - coordinate) > tolerance:
+            source.warn(
+                cell.where,
+                shown(value),
+                f"the part's centroid, {shown(coordinate)}",
+                "it is not used; export the option space again if in doubt",
+            )

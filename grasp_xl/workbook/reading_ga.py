@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
+import numpy as np
+
 from grasp_xl.chromosome import BLANK_GENE, UNSET_GENE, Chromosome
 from grasp_xl.errors import UsageError
-from grasp_xl.rules import Criterion, MomentArm, moment_arm
+from grasp_xl.rules import DIVERGENCE, TERMS, Criterion, MomentArm, moment_arm
 from grasp_xl.space import OptionSpace
 from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout
-from grasp_xl.workbook.cells import Source, cells_of
-from grasp_xl.workbook.layout import Area, Field, xl_rowcol_to_cell
+from grasp_xl.workbook.cells import LABEL_ROWS, Source, cells_of, is_blank, normal
+from grasp_xl.workbook.layout import Area, Field
 
 T = TypeVar("T")
 
@@ -23,13 +25,17 @@ MAX_GENERATIONS = 1_000_000_000
 MAX_SEED = 2**53
 """Largest whole number that a cell holds exactly."""
 
+A_CRITERION = f"{DIVERGENCE}, one of {', '.join(TERMS)}, or some of these joined by +"
+AN_ARM = "3d or plan"
+
 
 def find_ga_sheet(source: Source) -> str | None:
     """Return the sheet with the parameters: by its names, else by its first label."""
     first = layout.PARAMETERS[0]
     if first.name in source.names:
         return source.names[first.name].sheet
-    return next((s for s in source.sheets if source.grid(s).find(first.label)), None)
+    label = next(source.sheets_with(first.label), None)
+    return label.sheet if label else None
 
 
 def read_parameters(source: Source) -> Parameters:
@@ -58,12 +64,14 @@ class _ParameterReader:
     def __init__(self, source: Source, sheet: str) -> None:
         self.source = source
         self.sheet = sheet
-        self.heading = source.grid(sheet).find(layout.PARAMETERS[0].label)
+        self.first_label = source.grid(sheet).find(layout.PARAMETERS[0].label)
 
     def cell(self, name: str) -> Area | None:
         field = next(field for field in layout.PARAMETERS if field.name == name)
-        heading = self.heading.cell(-1, 0) if self.heading else None
-        cell = self.source.locate(self.sheet, field, heading=heading)
+        first = self.first_label
+        rows = range(first.row if first else 0, LABEL_ROWS)
+        column = first.column if first else None
+        cell = self.source.locate(self.sheet, field, rows=rows, column=column)
         return None if cell is None or self.source.blank(cell) else cell
 
     def number(
@@ -77,7 +85,9 @@ class _ParameterReader:
         if cell is None:
             return None
         expected = f"a whole number from {least} to {most:,}"
-        number = self.source.number(cell, expected, least=least, most=most, whole=True, limit=most)
+        number = self.source.number(
+            cell, expected, least=least, most=most, whole=True, limit=MAX_SEED
+        )
         return None if number is None else int(number)
 
     def switch(self, name: str) -> bool | None:
@@ -85,40 +95,49 @@ class _ParameterReader:
         if cell is None:
             return None
         value = self.source.value(cell)
-        if value in (0, 1):  # TRUE and FALSE too
-            return bool(value)
-        self.source.complain(cell.where, f"{value!r}", "1 or 0", "type 1 for yes or 0 for no")
-        return None
+        if isinstance(value, bool):
+            return value
+        number = self.source.number(cell, "1 (yes) or 0 (no)", least=0, most=1, whole=True)
+        return None if number is None else number == 1
 
     def criterion(self) -> Criterion | None:
-        cell = self.cell("FitnessCriterion")
-        return None if cell is None else self._word(cell, Criterion.parse)
+        return self._word("FitnessCriterion", A_CRITERION, Criterion.parse)
 
     def arm(self) -> MomentArm | None:
-        cell = self.cell("MomentArm")
-        return None if cell is None else self._word(cell, moment_arm)
+        return self._word("MomentArm", AN_ARM, moment_arm)
 
-    def _word(self, cell: Area, parse: Callable[[str], T]) -> T | None:
+    def _word(self, name: str, expected: str, parse: Callable[[str], T]) -> T | None:
+        cell = self.cell(name)
+        if cell is None:
+            return None
+        value = self.source.value(cell)
+        if is_blank(value):
+            self.source.number(cell, expected)  # notes a formula without a stored value
+            return None
         try:
-            return parse(str(self.source.value(cell)))
-        except UsageError as error:
-            self.source.complain(
-                cell.where, repr(self.source.value(cell)), "a word that is known", error.hint
-            )
+            return parse(str(value))
+        except UsageError:
+            hint = "correct the word, or clear the cell for the default"
+            self.source.complain(cell.where, repr(value), expected, hint)
             return None
 
     def goal(self, number: int) -> float | None:
         """Read a typed goal; our own formula on the user-defined block says nothing."""
-        cell = self.cell(layout.GOAL_NAMES[number])
-        if cell is None:
+        name = layout.GOAL_NAMES[number]
+        cell = self.cell(name)
+        if cell is None or self._shows_user_block(cell, number):
             return None
+        return self.number(name, "a goal above 0", above=0)
+
+    def _shows_user_block(self, cell: Area, number: int) -> bool:
         formula = self.source.formula(cell)
-        block = self.source.names.get(layout.USER_BLOCK.name)
-        if formula is not None and block is not None:
-            ours = block.cell(3, number)  # the values two rows below the genes, cost behind FoS
-            if formula.replace("$", "").upper() == xl_rowcol_to_cell(ours.row, ours.column):
-                return None
-        return self.source.number(cell, "a goal above 0", above=0)
+        genes = find_block(self.source, layout.USER_BLOCK)
+        if formula is None or genes is None:
+            return False
+        shown = genes.cell(3, number)  # the values, cost behind FoS, two rows below the genes
+        sheet, _, reference = formula.replace("$", "").rpartition("!")
+        own_sheet = sheet.strip("'") in ("", shown.sheet)
+        return own_sheet and shown.where.endswith(f"!{reference.upper()}")
 
 
 def read_chromosome(source: Source, space: OptionSpace, block: Field) -> Chromosome | None:
@@ -127,7 +146,17 @@ def read_chromosome(source: Source, space: OptionSpace, block: Field) -> Chromos
     What cannot be used is noted as a problem of its cell.
     """
     area = find_block(source, block)
-    if area is None or all(source.blank(cell) for row in cells_of(area) for cell in row):
+    if area is None:
+        return None
+    if area.rows != len(space.kinds) or area.columns < 2:
+        source.complain(
+            area.where,
+            f"the name {block.name} on {area.rows} rows and {area.columns} columns",
+            f"{len(space.kinds)} rows of a count and indices",
+            "let the name refer to the block's values, or delete the name",
+        )
+        return None
+    if all(source.blank(cell) for row in cells_of(area) for cell in row):
         return None
     before = len(source.problems)
     rows = [
@@ -137,7 +166,7 @@ def read_chromosome(source: Source, space: OptionSpace, block: Field) -> Chromos
         source.complain(
             area.where, "no element at all", "at least one element", "type a count above 0"
         )
-    return Chromosome(rows) if len(source.problems) == before else None
+    return Chromosome(np.array(rows)) if len(source.problems) == before else None
 
 
 def find_block(source: Source, block: Field) -> Area | None:
@@ -152,46 +181,47 @@ def find_block(source: Source, block: Field) -> Area | None:
     if title is None:
         return None
     columns = 1
-    while str(grid.at(title.row + 1, title.column + 1 + columns)).startswith("Index"):
+    while _is_index_label(grid.at(title.row + 1, title.column + 1 + columns)):
         columns += 1
     return Area(sheet, title.row + 2, title.column + 1, len(layout.KINDS), columns)
 
 
+def _is_index_label(value: object) -> bool:
+    return isinstance(value, str) and normal(value).startswith("index ")
+
+
 def _gene_row(source: Source, space: OptionSpace, number: int, cells: list[Area]) -> list[int]:
     kind = space.kinds[number]
-    unset = UNSET_GENE if kind.total else BLANK_GENE
-    genes = [0, *[unset] * space.gene_slots]
+    genes = [0, *[UNSET_GENE if kind.total else BLANK_GENE] * space.gene_slots]
+    index_cells = cells[1 : 1 + space.gene_slots]
+    most = min(kind.most, len(index_cells))
     count = source.number(
         cells[0],
-        f"a whole number from {kind.count_min} to {kind.most}",
+        f"a whole number from {kind.count_min} to {most}",
         least=kind.count_min,
-        most=kind.most,
+        most=most,
         whole=True,
     )
-    if count is None:
+    if count is None or not kind.total:
         return genes
     genes[0] = int(count)
-    seen: dict[int, Area] = {}
-    for slot, cell in enumerate(cells[1 : 1 + space.gene_slots], 1):
-        active = slot <= genes[0]
-        if not active and source.blank(cell):
+    expected = f"a {kind.name} index, a whole number from 1 to {kind.total}"
+    active: set[int] = set()
+    for slot, cell in enumerate(index_cells, 1):
+        if slot > genes[0] and source.blank(cell):
             continue
-        index = source.number(
-            cell,
-            f"a {kind.name} index, a whole number from 1 to {kind.total}",
-            least=1 if kind.total else 0,
-            most=kind.total,
-            whole=True,
-        )
+        index = source.number(cell, expected, least=1, most=kind.total, whole=True)
         if index is None:
             continue
         genes[slot] = int(index)
-        if active and int(index) in seen:
+        if slot > genes[0]:
+            continue
+        if genes[slot] in active:
             source.complain(
                 cell.where,
-                f"the index {int(index)} a second time",
+                f"the index {genes[slot]} a second time",
                 "active indices that differ",
                 "two elements cannot stand at one place",
             )
-        seen[int(index)] = cell
+        active.add(genes[slot])
     return genes
