@@ -7,14 +7,19 @@ generations with its workbook, and the first run of all, with nothing compiled.
 from __future__ import annotations
 
 import argparse
+import os
 import statistics
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from benchmarks.processes import python
+from benchmarks.processes import ROOT, python
 
 IMPORTS = "import numpy, pandas, openpyxl, xlsxwriter, numba, shapely"
+HIDE_SCIPY = "import sys; sys.modules['scipy'] = None"
+"""Start-up code for an environment like a user's: scipy is here for pymoo alone, and numba imports
+a part of it where it finds it."""
+
 FOOTPRINTS = 747
 """As many as the door frame of 228 x 519 has."""
 
@@ -28,23 +33,31 @@ def run_command(folder: Path) -> list[str]:
     return ["-m", "grasp_xl", "run", str(file), "-o", target, *options]
 
 
-def interleaved(commands: dict[str, Sequence[str]], repeats: int) -> dict[str, list[float]]:
+def without_scipy(folder: Path) -> dict[str, str]:
+    """Return environment variables under which Python finds no scipy."""
+    (folder / "sitecustomize.py").write_text(HIDE_SCIPY)
+    return {"PYTHONPATH": os.pathsep.join((str(folder), str(ROOT)))}
+
+
+def interleaved(
+    commands: dict[str, Sequence[str]], env: dict[str, str], repeats: int
+) -> dict[str, list[float]]:
     """Time the commands in turn, so that a busy moment of the machine hits all of them."""
     for arguments in commands.values():
-        python(*arguments)
+        python(*arguments, env=env)
     seconds: dict[str, list[float]] = {name: [] for name in commands}
     for _ in range(repeats):
         for name, arguments in commands.items():
-            seconds[name].append(python(*arguments).seconds)
+            seconds[name].append(python(*arguments, env=env).seconds)
     return seconds
 
 
-def first_runs(run: Sequence[str], repeats: int) -> list[float]:
+def first_runs(run: Sequence[str], env: dict[str, str], repeats: int) -> list[float]:
     """Time runs with an empty cache each: the kernels are compiled first."""
     seconds = []
     for _ in range(repeats):
         with tempfile.TemporaryDirectory() as cache:
-            seconds.append(python(*run, env={"XDG_CACHE_HOME": cache}).seconds)
+            seconds.append(python(*run, env={**env, "XDG_CACHE_HOME": cache}).seconds)
     return seconds
 
 
@@ -71,8 +84,11 @@ def main() -> None:
             "grasp-xl --help": ("-m", "grasp_xl", "--help"),
             "grasp-xl run": run,
         }
-        report(interleaved(commands, said.repeats), "the imports")
-        firsts = first_runs(run, said.first_runs)
+        hidden = without_scipy(Path(folder))
+        for title, env in (("As a user has it, without scipy", hidden), ("With scipy", {})):
+            print(f"\n{title}\n")
+            report(interleaved(commands, env, said.repeats), "the imports")
+        firsts = first_runs(run, hidden, said.first_runs)
     spread = f"{min(firsts):.1f} to {max(firsts):.1f}"
     print(f"\nFirst run, nothing compiled: median {statistics.median(firsts):.1f} s ({spread}).")
 

@@ -197,9 +197,7 @@ def new(
         seed=seed,
     )
     show.compile_notice(quiet=quiet)
-    task = commands.new(
-        file, options, commands.Output(output, force=force), _active(cups, magnets)
-    )
+    task = commands.new(file, options, commands.Output(output, force=force), _active(cups, magnets))
     if as_json:
         _print_json(reporting.new_json(task, str(output)))
     elif not quiet:

@@ -119,9 +119,7 @@ def evaluate_grasp(path: Path, options: Parameters, grasp: Active) -> tuple[Task
     return task, evaluate(task.space, task.rules, given) if given else task.benchmark
 
 
-def new(
-    path: Path, options: Parameters, output: Output, grasp: Active = (None, None)
-) -> Task:
+def new(path: Path, options: Parameters, output: Output, grasp: Active = (None, None)) -> Task:
     """Make the full workbook from an exported sheet, ready for a designer.
 
     Where the output is a workbook already, its parameters and typed chromosomes stay, and every

@@ -37,7 +37,8 @@ class Grasp:
         Each term over its goal; None where the term is dropped.
     normalised_fos, divergence, value : float
         FoS goal over FoS, eq. 8, and the number that the search minimises.
-    feasible, meets_all_goals : bool
+    meets_fos, is_clear, meets_all_goals : bool
+        Both constraints, and beyond them every goal (section 4.2.3.5).
     """
 
     chromosome: Chromosome
@@ -55,8 +56,22 @@ class Grasp:
     normalised_fos: float
     divergence: float
     value: float
-    feasible: bool
+    meets_fos: bool
+    is_clear: bool
     meets_all_goals: bool
+
+    @property
+    def feasible(self) -> bool:
+        """Whether both constraints of section 4.2.4 hold."""
+        return self.meets_fos and self.is_clear
+
+    @property
+    def longest_mm(self) -> float:
+        """Length of the main truss, the largest plan-view distance of two elements (mm)."""
+        if self.main_truss is None:
+            return 0.0
+        start, end = self.points_mm[list(self.main_truss), :2]
+        return float(np.linalg.norm(end - start))
 
 
 def active_points(space: OptionSpace, chromosome: Chromosome) -> FloatArray:
@@ -94,9 +109,8 @@ def evaluate(space: OptionSpace, rules: Rules, chromosome: Chromosome) -> Grasp:
         deviation=criteria.deviation(points, space.ideal_polygon_mm),
         structure=criteria.structure(points, need.density_ratio),
     )
-    feasible = fos >= need.fos * (1 - SLACK) and (
-        clearance is None or clearance >= need.clearance_mm * (1 - SLACK)
-    )
+    meets_fos = fos >= need.fos * (1 - SLACK)
+    is_clear = clearance is None or clearance >= need.clearance_mm * (1 - SLACK)
     return Grasp(
         chromosome=chromosome,
         points_mm=points,
@@ -113,6 +127,7 @@ def evaluate(space: OptionSpace, rules: Rules, chromosome: Chromosome) -> Grasp:
         normalised_fos=need.fos / fos,
         divergence=rules.goals.divergence(terms),
         value=rules.value(terms),
-        feasible=feasible,
-        meets_all_goals=feasible and rules.goals.met_by(terms),
+        meets_fos=meets_fos,
+        is_clear=is_clear,
+        meets_all_goals=meets_fos and is_clear and rules.goals.met_by(terms),
     )

@@ -12,8 +12,8 @@ import shapely
 from grasp_xl.grasp import Grasp
 from grasp_xl.space import OptionSpace
 
-FLAT_HULL = 1e-9
-"""Hull area over the squared length of the grasp below which the points lie on one line."""
+FLAT = 1e-9
+"""Area over the squared length of the grasp below which the points lie on one line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,8 +41,9 @@ class Support:
 def support(space: OptionSpace, grasp: Grasp) -> Support:
     """Look at how a grasp holds its part."""
     hull = shapely.MultiPoint(grasp.points_mm[:, :2]).convex_hull
-    x0, y0, x1, y1 = hull.bounds
-    flat = hull.area <= FLAT_HULL * ((x1 - x0) ** 2 + (y1 - y0) ** 2)
+    longest = grasp.longest_mm
+    flat = hull.area <= FLAT * longest**2
+    centroid = shapely.Point(space.part.centroid_mm[:2])
     weights = [
         (int(count), kind.weight_g)
         for count, kind in zip(grasp.chromosome.counts, space.kinds, strict=True)
@@ -52,6 +53,6 @@ def support(space: OptionSpace, grasp: Grasp) -> Support:
     return Support(
         element_weight_g=sum(known) if len(known) == len(weights) else None,
         hull_area_mm2=0.0 if flat else float(hull.area),
-        centroid_inside=not flat and bool(hull.covers(shapely.Point(space.part.centroid_mm[:2]))),
+        centroid_inside=not flat and bool(hull.distance(centroid) <= FLAT * longest),
         can_swing=flat,
     )

@@ -1,8 +1,8 @@
 """Tiny workbooks, one for each way of being wrong: ``python tests/bad_workbooks.py FOLDER``.
 
 ``FILE_CASES`` are wrong as files, ``CELL_CASES`` in their cells, ``FINE_CASES`` only look odd.
-Each case says what its message must be: word by word for files, some words of it for cells.  An
-empty ``where`` stands for the file itself.
+Each case says word by word what must be found wrong.  An empty ``where`` stands for the file
+itself; an empty ``hint`` for any.
 """
 
 from __future__ import annotations
@@ -17,12 +17,15 @@ from datetime import date
 from functools import partial
 from pathlib import Path
 
-import xlsxwriter  # type: ignore[import-untyped, unused-ignore]
+import xlsxwriter
+from xlsxwriter.utility import xl_cell_to_rowcol, xl_rowcol_to_cell
+from xlsxwriter.worksheet import Worksheet
 
 from grasp_xl.errors import Problem
 from grasp_xl.workbook import package
 
 SHEET = "Option Space"
+GA = "GA"
 SHEET_PART = "xl/worksheets/sheet1.xml"
 LAST_ROW = 1_048_576
 SCALE = 0.6
@@ -47,6 +50,7 @@ class Raw:
 
 
 Value = str | float | bool | date | Raw | None
+_TRUE, _FALSE = True, False  # named, since ruff (FBT003) allows no bare ones as arguments
 Cells = dict[str, Value]
 Builder = Callable[[Path], None]
 
@@ -118,7 +122,9 @@ def export_rows() -> Cells:
 _CENTROID_LABELS = ("Centroid X (mm)", "Centroid Y (mm)", "Centroid Z (mm)")
 
 
-def _kind(name: str, force: float, price: float, weight: float) -> tuple[tuple[str, float], ...]:
+def _kind(
+    name: str, force: float, price: float, weight: float
+) -> tuple[tuple[str, str | float], ...]:
     return (
         (f"# {name} (Min.)", 1),
         (f"# {name} (Max.)", 5),
@@ -128,7 +134,26 @@ def _kind(name: str, force: float, price: float, weight: float) -> tuple[tuple[s
     )
 
 
-def _attributes(first_row: int, attributes: tuple[tuple[str, float], ...]) -> Cells:
+_PARAMETERS: tuple[tuple[str, str | float], ...] = (
+    ("User-Defined Starting Chromosome", 1),
+    ("Elitism", 0),
+    ("1-in-n Mutation Probability", 3),
+    ("Number of Generations", 2000),
+    ("Minimum Gripper Element Distance (mm)", 50),
+    ("Structure Linear Density Ratio", 2),
+    ("Fitness Criterion", "cost+moment"),
+    ("FoS", 2.5),
+    ("Cost ($)", 60),
+    ("Residual Moment (N-mm)", 9000),
+    ("Deviation (mm)", 30),
+    ("Structure (mm)", 700),
+    ("Children per Generation", 7),
+    ("Seed", 9),
+    ("Moment Arm", "plan"),
+)
+
+
+def _attributes(first_row: int, attributes: tuple[tuple[str, str | float], ...]) -> Cells:
     cells: Cells = {}
     for row, (label, value) in enumerate(attributes, first_row):
         cells |= {f"A{row}": label, f"B{row}": value}
@@ -156,38 +181,71 @@ def polygon_rows(corners: tuple[tuple[float, ...], ...]) -> Cells:
     return cells | {f"K{centroid_row}": "Centroid"} | _points("LMN", centroid_row, (CENTROID,))
 
 
+def shifted(cells: Cells, *, rows: int = 0, columns: int = 0, after: int = 0) -> Cells:
+    """Insert empty rows above, and empty columns behind the first ``after`` columns."""
+    moved: Cells = {}
+    for cell, value in cells.items():
+        row, column = xl_cell_to_rowcol(cell)
+        moved[xl_rowcol_to_cell(row + rows, column + columns * (column >= after))] = value
+    return moved
+
+
+def ga_rows() -> Cells:
+    """Cells of a GA sheet: parameters, and a designer's grasp of cups 1 and 4 and magnet 3."""
+    chromosome: Cells = {"D7": "User-Defined Chromosome"}
+    rows = (
+        ("Total #", "Index 1", "Index 2", "Index 3", "Index 4", "Index 5"),
+        (2, 1, 4, 1, 1, 1),
+        (1, 3, 1, 1, 1, 1),
+    )
+    for number, (label, row) in enumerate(zip((None, "Suction", "Magnets"), rows, strict=True), 8):
+        chromosome |= {f"D{number}": label}
+        chromosome |= {f"{column}{number}": v for column, v in zip("EFGHIJ", row, strict=True)}
+    return {"A3": "Attribute", "B3": "Value"} | _attributes(4, _PARAMETERS) | chromosome
+
+
 def tiny_export(path: Path, change: Mapping[str, Value] | None = None) -> None:
     """Write the tiny export, with some of its cells changed."""
     write_book(path, {SHEET: export_rows() | dict(change or {})})
 
 
-def write_book(path: Path, sheets: Mapping[str, Cells]) -> None:
-    """Write sheets of cells."""
+def write_book(
+    path: Path, sheets: Mapping[str, Cells], names: Mapping[str, str] | None = None
+) -> None:
+    """Write sheets of cells, and defined names."""
     with xlsxwriter.Workbook(path) as book:
-        for name, cells in sheets.items():
+        for name, reference in (names or {}).items():
+            book.define_name(name, f"={reference}")
+        day = book.add_format({"num_format": "yyyy-mm-dd"})
+        for name, content in sheets.items():
             sheet = book.add_worksheet(name)
-            for cell, value in cells.items():
-                if isinstance(value, bool):
-                    sheet.write_boolean(cell, value)
-                elif isinstance(value, str):
-                    sheet.write_string(cell, value)
-                elif isinstance(value, date):
-                    sheet.write_datetime(cell, value, book.add_format({"num_format": "yyyy-mm-dd"}))
-                elif isinstance(value, Raw):
-                    sheet.write_number(cell, _PLACEHOLDER)
-                elif value is not None:
-                    sheet.write_number(cell, value)
-    for number, cells in enumerate(sheets.values(), 1):
-        raw = {cell: value.xml for cell, value in cells.items() if isinstance(value, Raw)}
+            for cell, value in content.items():
+                if isinstance(value, date):
+                    sheet.write_datetime(cell, value, day)
+                else:
+                    _write(sheet, cell, value)
+    for number, content in enumerate(sheets.values(), 1):
+        raw = {cell: value.xml for cell, value in content.items() if isinstance(value, Raw)}
         if raw:
-            change_part(path, f"xl/worksheets/sheet{number}.xml", partial(_put_raw, cells=raw))
+            change_part(path, f"xl/worksheets/sheet{number}.xml", partial(_put_raw, raw_cells=raw))
+
+
+def _write(sheet: Worksheet, cell: str, value: str | float | Raw | None) -> None:
+    if isinstance(value, bool):
+        sheet.write_boolean(cell, value)
+    elif isinstance(value, str):
+        sheet.write_string(cell, value)
+    elif isinstance(value, Raw):
+        sheet.write_number(cell, _PLACEHOLDER)
+    elif value is not None:
+        sheet.write_number(cell, value)
 
 
 _PLACEHOLDER = 987654321
 
 
-def _put_raw(xml: bytes, cells: Mapping[str, str]) -> bytes:
-    for cell, raw in cells.items():
+def _put_raw(xml: bytes, raw_cells: Mapping[str, str]) -> bytes:
+    for cell, raw in raw_cells.items():
         written = f'<c r="{cell}"><v>{_PLACEHOLDER}</v></c>'.encode()
         xml = replaced(xml, written, f'<c r="{cell}"{raw}</c>'.encode())
     return xml
@@ -507,7 +565,7 @@ def size_that_lies(path: Path) -> None:
 @wrong_file("33 MB in the part 'xl/styles.xml'", "at most 32 MB", ONE_SHEET_ONLY)
 def huge_styles(path: Path) -> None:
     parts = good_parts(path)
-    noise = random.Random(1).randbytes(1_000_000)  # so that the ratio is no bomb's
+    noise = random.Random(1).randbytes(1_000_000)  # noqa: S311 (so that the ratio is no bomb's)
     parts |= {"xl/styles.xml": b" " * 32_500_000, "xl/media/image1.png": noise}
     write_parts(path, parts)
 
@@ -570,9 +628,14 @@ def changed_meanwhile(path: Path) -> None:
 # --- wrong in their cells ---
 
 
+def wrong_book(name: str, build: Builder, *problems: Problem) -> None:
+    """Register a workbook that is wrong somewhere."""
+    CELL_CASES.append(Case(name, build, problems))
+
+
 def wrong_cells(name: str, change: Mapping[str, Value], *problems: Problem) -> None:
-    """Register a tiny export with some cells changed; each text is a word of the message."""
-    CELL_CASES.append(Case(name, lambda path: tiny_export(path, change), problems))
+    """Register a tiny export with some cells changed."""
+    wrong_book(name, lambda path: tiny_export(path, change), *problems)
 
 
 def wrong_cell(name: str, cell: str, value: Value, found: str, expected: str) -> None:
@@ -585,151 +648,384 @@ def number_text(text: str) -> Raw:
     return Raw(f"><v>{text}</v>")
 
 
+A_MASS = "a mass above 0 g"
+A_FORCE = "a force above 0 N"
+A_COORDINATE = "a coordinate (mm)"
+A_COUNT = "a whole number from 0 to 100"
+A_SCALE_FACTOR = "a scale factor above 0 and at most 1"
+A_WEIGHT = "a weight of 0 g or more, or nothing"
+NOTHING = "an empty cell"
+NO_VALUE = "a formula without a stored value"
+
 # Not numbers, where one belongs.
-wrong_cell("text_for_mass", "B5", "heavy", "'heavy'", "number")
-wrong_cell("number_as_text", "B5", "8860", "'8860'", "number")
-wrong_cell("text_for_coordinate", "E7", "left", "'left'", "number")
-wrong_cell("text_for_polygon", "M4", "top", "'top'", "number")
-wrong_cell("text_that_begins_with_equals", "B5", "=8860", "'=8860'", "number")
-wrong_cell("text_that_looks_like_a_command", "B13", "=cmd|'/c calc'!A0", "=cmd|", "number")
-wrong_cell("blank_mass", "B5", None, "blank", "number")
-wrong_cell("blank_centroid", "B7", None, "blank", "number")
-wrong_cell("blank_scale_factor", "L1", None, "blank", "number")
-wrong_cell("spaces_for_mass", "B5", "  ", "'  '", "number")
-wrong_cell("error_for_mass", "B5", Raw(' t="e"><v>#N/A</v>'), "#N/A", "number")
-wrong_cell("error_of_a_formula", "B13", Raw(' t="e"><f>1/0</f><v>#DIV/0!</v>'), "#DIV/0!", "number")
-wrong_cell("date_for_mass", "B5", date(2024, 3, 1), "date", "number")
-wrong_cell("boolean_for_force", "B13", True, "TRUE", "number")
-wrong_cell("boolean_for_coordinate", "D5", False, "FALSE", "number")
-wrong_cell("formula_without_value", "B5", Raw("><f>1000*8.86</f>"), "formula", "value")
-wrong_cell("formula_without_value_in_list", "G6", Raw("><f>D6</f>"), "formula", "value")
+wrong_cell("text_for_mass", "B5", "heavy", "the text 'heavy'", A_MASS)
+wrong_cell("number_as_text", "B5", "8860", "the text '8860'", A_MASS)
+wrong_cell("text_for_coordinate", "E7", "left", "the text 'left'", A_COORDINATE)
+wrong_cell("text_for_polygon", "M4", "top", "the text 'top'", A_COORDINATE)
+wrong_cell("text_that_begins_with_equals", "B5", "=8860", "the text '=8860'", A_MASS)
+wrong_cell(
+    "text_that_looks_like_a_command",
+    "B13",
+    "=cmd|'/c calc'!A0",
+    "the text \"=cmd|'/c calc'!A0\"",
+    A_FORCE,
+)
+wrong_cell("blank_mass", "B5", None, NOTHING, A_MASS)
+wrong_cell("blank_centroid", "B7", None, NOTHING, A_COORDINATE)
+wrong_cell("blank_scale_factor", "L1", None, NOTHING, A_SCALE_FACTOR)
+wrong_cell("spaces_for_mass", "B5", "  ", NOTHING, A_MASS)
+wrong_cell("error_for_mass", "B5", Raw(' t="e"><v>#N/A</v>'), "the error value #N/A", A_MASS)
+wrong_cell(
+    "error_of_a_formula",
+    "B13",
+    Raw(' t="e"><f>1/0</f><v>#DIV/0!</v>'),
+    "the error value #DIV/0!",
+    A_FORCE,
+)
+wrong_cell("date_for_mass", "B5", date(2024, 3, 1), "the date or time 2024-03-01 00:00:00", A_MASS)
+wrong_cell("boolean_for_force", "B13", _TRUE, "the truth value TRUE", A_FORCE)
+wrong_cell("boolean_for_coordinate", "D5", _FALSE, "the truth value FALSE", A_COORDINATE)
+wrong_cell("boolean_for_index", "C5", _TRUE, "the truth value TRUE", "the index 1")
+wrong_cell("formula_without_value", "B5", Raw("><f>1000*8.86</f>"), NO_VALUE, A_MASS)
+wrong_cell("formula_without_value_in_list", "G6", Raw("><f>D6</f>"), NO_VALUE, A_COORDINATE)
+wrong_cell("formula_without_value_for_weight", "B15", Raw("><f>B13/9</f>"), NO_VALUE, A_WEIGHT)
+wrong_cell("formula_without_value_for_index", "C6", Raw("><f>C5+1</f>"), NO_VALUE, "the index 2")
+wrong_cells(
+    "formulas_without_values_for_a_list",
+    {f"{column}{row}": Raw("><f>2*50</f>") for column in "DEF" for row in range(5, 11)}
+    | {"B11": 0},
+    Problem(f"{SHEET}!D5", NO_VALUE, A_COORDINATE),
+)
 
 # Numbers that no one can calculate with; openpyxl fails at some, Python's float at others.
-wrong_cell("nan", "B5", number_text("NaN"), "NaN", "number")
-wrong_cell("infinite", "D5", number_text("INF"), "INF", "number")
-wrong_cell("infinite_by_exponent", "D5", number_text("1e999"), "inf", "number")
-wrong_cell("huge", "D5", 1e308, "1e+308", "at most")
-wrong_cell("huge_mass", "B5", 1e308, "1e+308", "at most")
-wrong_cell("huge_integer", "E5", number_text("1" + "0" * 400), "1", "at most")
+wrong_cell("nan", "B5", number_text("NaN"), "'NaN', which is no number", "a number")
+wrong_cell("infinite", "D5", number_text("INF"), "'INF', which is no number", "a number")
+wrong_cell("infinite_by_exponent", "D5", number_text("1e999"), "inf", A_COORDINATE)
+wrong_cell("huge", "D5", 1e308, "1e+308", A_COORDINATE)
+wrong_cell("huge_mass", "B5", 1e308, "1e+308", A_MASS)
+wrong_cell("tiny_mass", "B5", 1e-308, "1e-308", A_MASS)
+wrong_cell(
+    "huge_integer", "E5", number_text("1" + "0" * 400), "a number of 401 digits", A_COORDINATE
+)
+wrong_cell(
+    "huge_integer_for_mass", "B5", number_text("-" + "9" * 400), "a number of 400 digits", A_MASS
+)
+wrong_cell(
+    "huge_integer_for_index", "C5", number_text("1" * 400), "a number of 400 digits", "the index 1"
+)
 
 # Numbers out of their range.
-wrong_cell("negative_mass", "B5", -8860, "-8860", "more than 0")
-wrong_cell("zero_mass", "B5", 0, "0", "more than 0")
-wrong_cell("negative_force", "B13", -69, "-69", "more than 0")
-wrong_cell("zero_force", "B21", 0, "0", "more than 0")
-wrong_cell("negative_price", "B14", -1, "-1", "at least 0")
-wrong_cell("negative_weight", "B23", -110, "-110", "at least 0")
-wrong_cell("min_above_max", "B11", 6, "6", "at most 5")
-wrong_cell("negative_min", "B11", -1, "-1", "at least 0")
-wrong_cell("fraction_for_max", "B20", 2.5, "2.5", "whole number")
-wrong_cell("zero_scale_factor", "L1", 0, "0", "more than 0")
-wrong_cell("negative_scale_factor", "L1", -0.6, "-0.6", "more than 0")
-wrong_cell("scale_factor_above_one", "L1", 1.5, "1.5", "at most 1")
+wrong_cell("negative_mass", "B5", -8860, "-8860", A_MASS)
+wrong_cell("zero_mass", "B5", 0, "0", A_MASS)
+wrong_cell("negative_force", "B13", -69, "-69", A_FORCE)
+wrong_cell("zero_force", "B21", 0, "0", A_FORCE)
+wrong_cell("negative_price", "B14", -1, "-1", "a price of 0 $ or more")
+wrong_cell("negative_weight", "B23", -110, "-110", A_WEIGHT)
+wrong_cell("min_above_max", "B11", 6, "a minimum of 6", "at most the maximum, 5")
+wrong_cell("negative_min", "B11", -1, "-1", A_COUNT)
+wrong_cell("fraction_for_max", "B20", 2.5, "the fraction 2.5", A_COUNT)
+wrong_cell("max_above_a_hundred", "B12", 101, "101", A_COUNT)
+wrong_cell("zero_scale_factor", "L1", 0, "0", A_SCALE_FACTOR)
+wrong_cell("tiny_scale_factor", "L1", 1e-300, "1e-300", A_SCALE_FACTOR)
+wrong_cell("negative_scale_factor", "L1", -0.6, "-0.6", A_SCALE_FACTOR)
+wrong_cell("scale_factor_above_one", "L1", 1.0000001, "1.0000001", A_SCALE_FACTOR)
 
 # Lists that do not fit together.
-wrong_cell("total_of_more_cups", "B16", 7, "7", "6")
-wrong_cell("total_of_fewer_magnets", "B24", 5, "5", "6")
-wrong_cell("fraction_for_total", "B24", 6.5, "6.5", "6")
-wrong_cell("gap_in_index", "C7", 4, "4", "3")
-wrong_cell("index_twice", "C8", 3, "3", "4")
-wrong_cell("blank_index", "C7", None, "blank", "3")
-wrong_cell("fraction_for_index", "C7", 3.5, "3.5", "3")
-wrong_cell("cup_without_y", "E6", None, "blank", "number")
-wrong_cell("last_magnet_without_z", "I10", None, "blank", "number")
+SIX_CUPS = "6, the number of suction cups listed"
+SIX_MAGNETS = "6, the number of magnets listed"
+NO_CUPS = {f"{column}{row}": None for column in "DEF" for row in range(5, 11)} | {"B16": 0}
+NO_MAGNETS = {f"{column}{row}": None for column in "GHI" for row in range(5, 11)} | {"B24": 0}
+wrong_cell("total_of_more_cups", "B16", 7, "7", SIX_CUPS)
+wrong_cell("total_of_fewer_magnets", "B24", 5, "5", SIX_MAGNETS)
+wrong_cell("fraction_for_total", "B24", 6.5, "6.5", SIX_MAGNETS)
+wrong_cell("text_for_total", "B24", "six", "the text 'six'", SIX_MAGNETS)
+wrong_cell("gap_in_index", "C7", 4, "4", "the index 3")
+wrong_cell("index_twice", "C8", 3, "3", "the index 4")
+wrong_cell("blank_index", "C7", None, NOTHING, "the index 3")
+wrong_cell("fraction_for_index", "C7", 3.5, "3.5", "the index 3")
+wrong_cell("cup_without_y", "E6", None, NOTHING, A_COORDINATE)
+wrong_cell("last_magnet_without_z", "I10", None, NOTHING, A_COORDINATE)
 wrong_cells(
     "gap_in_cups",
     {"D7": None, "E7": None, "F7": None, "B16": 5},
-    Problem(f"{SHEET}!D7", "blank", "cup"),
+    Problem(
+        f"{SHEET}!D7",
+        "an empty row, and a coordinate below it in row 8",
+        "a list of suction cups without gaps",
+    ),
 )
 wrong_cells(
     "two_cups_at_one_place",
     {"D8": 100, "E8": 60, "F8": 10},
-    Problem(f"{SHEET}!D8", "index 1", "own place"),
+    Problem(f"{SHEET}!D8", "the place of index 1 again", "suction cups at places of their own"),
 )
 wrong_cells(
     "two_magnets_at_one_place",
     {"G10": -50, "H10": 0, "I10": 10},
-    Problem(f"{SHEET}!G10", "index 4", "own place"),
+    Problem(f"{SHEET}!G10", "the place of index 4 again", "magnets at places of their own"),
 )
 wrong_cells(
     "no_cups_but_one_needed",
-    {f"{column}{row}": None for column in "DEF" for row in range(5, 11)} | {"B16": 0},
-    Problem(f"{SHEET}!B11", "1", "at most 0"),
+    NO_CUPS,
+    Problem(f"{SHEET}!B11", "a minimum of 1", "at most 0, the number of suction cups listed"),
 )
 wrong_cells(
     "no_footprints",
-    {f"{column}{row}": None for column in "CDEFGHI" for row in range(5, 11)}
-    | {"B11": 0, "B16": 0, "B19": 0, "B24": 0},
-    Problem(f"{SHEET}!D5", "no", "footprint"),
+    NO_CUPS | NO_MAGNETS | {f"C{row}": None for row in range(5, 11)} | {"B11": 0, "B19": 0},
+    Problem(f"{SHEET}!D5", "no footprint at all", "places of cups or magnets"),
 )
-wrong_cell("coordinate_in_last_row", f"D{LAST_ROW}", 7.0, "7", "blank")
+wrong_cells(
+    "coordinate_in_last_row",
+    {f"D{LAST_ROW}": 7.0},
+    Problem(
+        f"{SHEET}!D11",
+        "an empty row, and a coordinate below it in row 1,048,576",
+        "a list of suction cups without gaps",
+    ),
+)
 
 # Polygons.
+A_POLYGON = "three or more corners around an area, without crossing"
+CORNERS = "3 to 10,000 corners"
 wrong_cells(
-    "polygon_of_two_points", polygon_rows(PLATE[:2]), Problem(f"{SHEET}!K3", "2", "at least 3")
+    "polygon_of_two_points", polygon_rows(PLATE[:2]), Problem(f"{SHEET}!L3", "2 corners", CORNERS)
 )
-wrong_cells("polygon_without_points", polygon_rows(()), Problem(f"{SHEET}!K3", "no", "at least 3"))
+wrong_cells(
+    "polygon_without_points", polygon_rows(()), Problem(f"{SHEET}!L3", "0 corners", CORNERS)
+)
 wrong_cells(
     "polygon_without_area",
     polygon_rows(((0, 0, 10), (50, 50, 10), (100, 100, 10))),
-    Problem(f"{SHEET}!K3", "area", "area"),
+    Problem(f"{SHEET}!L3", "a polygon without area", A_POLYGON),
 )
 wrong_cells(
     "polygon_that_crosses_itself",
     polygon_rows((PLATE[0], PLATE[2], PLATE[1], PLATE[3])),
-    Problem(f"{SHEET}!K3", "cross", "cross"),
+    Problem(
+        f"{SHEET}!L3",
+        "a polygon that crosses itself (Self-intersection[0.600000000000001 -0.319999999999997])",
+        A_POLYGON,
+    ),
 )
-wrong_cell("polygon_point_without_x", "L4", None, "blank", "number")
+wrong_cells(
+    "polygon_that_goes_back_to_its_first_corner",
+    polygon_rows((*PLATE, PLATE[0])),
+    Problem(f"{SHEET}!L7", "the corner next to it again", A_POLYGON),
+)
+wrong_cells(
+    "polygon_with_a_corner_twice",
+    polygon_rows((PLATE[0], PLATE[1], PLATE[1], PLATE[2], PLATE[3])),
+    Problem(f"{SHEET}!L5", "the corner next to it again", A_POLYGON),
+)
+wrong_cell("polygon_point_without_x", "L4", None, NOTHING, A_COORDINATE)
 
 # Labels.
-wrong_cell("other_label", "A5", "Mass", "'Mass'", "Part mass (g)")
-wrong_cell("missing_label", "A13", None, "blank", "Normal force capacity (N)")
-wrong_cell("missing_scale_label", "K1", None, "blank", "Scale Factor:")
+wrong_cells(
+    "other_label",
+    {"A5": "Mass"},
+    Problem(f"{SHEET}!A5", "'Mass'", "the label 'Part mass (g)' under 'Part data'"),
+)
+wrong_cells(
+    "missing_label",  # the magnets have one of the same name
+    {"A13": None},
+    Problem(
+        f"{SHEET}!A13", NOTHING, "the label 'Normal force capacity (N)' under 'Suction cup data'"
+    ),
+)
+wrong_cells(
+    "missing_heading",
+    {"A10": None},
+    Problem(f"{SHEET}!A10", NOTHING, "the heading 'Suction cup data'"),
+)
+wrong_cells(
+    "missing_list_label",
+    {"G2": None},
+    Problem(f"{SHEET}!G2", NOTHING, "the label 'Magnet locations'"),
+)
+wrong_cells(
+    "missing_scale_label",
+    {"K1": None},
+    Problem(f"{SHEET}!K1", NOTHING, "the label 'Scale Factor:'"),
+)
+wrong_cells(
+    "missing_polygon_header",
+    {"M2": "Y (mm)"},
+    Problem(f"{SHEET}!K2", "'i'", "the header 'i x y z' of the ideal polygon, in four cells"),
+)
 
 wrong_cells(
-    "three_things_at_once",
-    {"B5": -1, "C7": 4, "L1": 2},
-    Problem(f"{SHEET}!B5", "-1", "more than 0"),
-    Problem(f"{SHEET}!C7", "4", "3"),
-    Problem(f"{SHEET}!L1", "2", "at most 1"),
+    "many_things_at_once",
+    {"B5": -1, "B12": "five", "B16": 7, "C7": 4, "D6": None, "A23": None, "H8": "x", "L1": 2}
+    | {"N4": None},
+    Problem(f"{SHEET}!B5", "-1", A_MASS),
+    Problem(f"{SHEET}!B12", "the text 'five'", A_COUNT),
+    Problem(f"{SHEET}!D6", NOTHING, A_COORDINATE),
+    Problem(f"{SHEET}!H8", "the text 'x'", A_COORDINATE),
+    Problem(f"{SHEET}!A23", NOTHING, "the label 'Weight (g)' under 'Magnet data'"),
+    Problem(f"{SHEET}!L1", "2", A_SCALE_FACTOR),
+    Problem(f"{SHEET}!N4", NOTHING, A_COORDINATE),
+)
+wrong_cells(
+    "index_and_total_at_once",
+    {"B16": 7, "C7": 4},
+    Problem(f"{SHEET}!B16", "7", SIX_CUPS),
+    Problem(f"{SHEET}!C7", "4", "the index 3"),
 )
 
 
-def wrong_book(name: str, build: Builder, *problems: Problem) -> None:
-    """Register a workbook that more than changed cells make wrong."""
-    CELL_CASES.append(Case(name, build, problems))
+def million_rows(path: Path) -> None:
+    """Write a number into every row of the sheet."""
+    tiny_export(path)
+    rows = b"<row><c><v>7</v></c></row>" * (LAST_ROW - 24)
+    end = b"</sheetData>"
+    change_part(path, SHEET_PART, lambda xml: replaced(xml, end, rows + end))
 
 
-def million_index_rows(path: Path) -> None:
-    """Write an index into every row of the sheet; the file has 8 MB."""
-    tiny_export(path, {f"C{row}": row - 4 for row in range(5, 25)})
-    rows = "".join(
-        f'<row r="{row}"><c r="C{row}"><v>{row - 4}</v></c></row>'
-        for row in range(25, LAST_ROW + 1)
-    )
+def last_columns(path: Path) -> None:
+    """Write empty cells to the last column of 1,000 rows; each costs as much as all before it."""
+    tiny_export(path)
+    rows = "".join(f'<row r="{row}"><c r="XFD{row}" s="0"/></row>' for row in range(1000, 2000))
     end = b"</sheetData>"
     change_part(path, SHEET_PART, lambda xml: replaced(xml, end, rows.encode() + end))
 
 
+ONE_TITLE = (
+    "one sheet with the title 'INPUT PARAMETERS (ALL DATA in GRAMS, MILLIMETERS, and NEWTONS)'"
+)
 wrong_book(
     "no_option_space",
     lambda path: write_book(path, {"Sheet1": {"A1": "Shopping list", "B5": 8860}}),
-    Problem("", "no sheet", "INPUT PARAMETERS"),
+    Problem("", "no option-space sheet", ONE_TITLE),
 )
 wrong_book(
     "empty_sheet",
     lambda path: write_book(path, {"Sheet1": {}}),
-    Problem("", "no sheet", "INPUT PARAMETERS"),
+    Problem("", "no option-space sheet", ONE_TITLE),
 )
 wrong_book(
     "two_option_spaces",
     lambda path: write_book(path, {SHEET: export_rows(), "Old export": export_rows()}),
-    Problem("Old export!A1", "second", "one"),
+    Problem("Old export!A1", f"an option space besides that of the sheet '{SHEET}'", ONE_TITLE),
 )
 wrong_book(
-    "million_index_rows",
-    million_index_rows,
-    Problem(f"{SHEET}!C5", "1,048,572", "at most"),
+    "million_rows",
+    million_rows,
+    Problem(SHEET, "more than 250,000 filled rows", "at most 250,000"),
+)
+wrong_book(
+    "last_columns",
+    last_columns,
+    Problem(SHEET, "more than 10,000,000 cells", "at most 10,000,000"),
+)
+
+# The GA sheet.
+A_CRITERION = "divergence, one of cost, moment, deviation, structure, or some of these joined by +"
+A_SWITCH = "1 (yes) or 0 (no)"
+A_GOAL = "a goal above 0"
+A_CUP = "a suction index, a whole number from 1 to 6"
+ONE_TO_FIVE = "a whole number from 1 to 5"
+
+
+def ga_book(path: Path, change: Mapping[str, Value]) -> None:
+    """Write the tiny export with a GA sheet, some cells of which are changed."""
+    write_book(path, {SHEET: export_rows(), GA: ga_rows() | dict(change)})
+
+
+def wrong_ga_cells(name: str, change: Mapping[str, Value], *problems: Problem) -> None:
+    """Register a tiny export with a GA sheet that is wrong in some cells."""
+    wrong_book(name, lambda path: ga_book(path, change), *problems)
+
+
+def wrong_ga_cell(name: str, cell: str, value: Value, found: str, expected: str) -> None:
+    """Register a tiny export with a GA sheet that is wrong in one cell."""
+    wrong_ga_cells(name, {cell: value}, Problem(f"{GA}!{cell}", found, expected))
+
+
+wrong_ga_cell("two_for_a_switch", "B4", 2, "2", A_SWITCH)
+wrong_ga_cell("text_for_a_switch", "B5", "yes", "the text 'yes'", A_SWITCH)
+wrong_ga_cell("zero_mutation", "B6", 0, "0", "n of 1-in-n, 1 or more")
+wrong_ga_cell("text_for_mutation", "B6", "1 in 4", "the text '1 in 4'", "n of 1-in-n, 1 or more")
+wrong_ga_cell(
+    "fraction_of_a_generation",
+    "B7",
+    0.5,
+    "the fraction 0.5",
+    "a whole number from 0 to 1,000,000,000",
+)
+wrong_ga_cell(
+    "too_many_generations", "B7", 2e9, "2000000000", "a whole number from 0 to 1,000,000,000"
+)
+wrong_ga_cell("zero_clearance", "B8", 0, "0", "a distance above 0 mm")
+wrong_ga_cell("negative_density_ratio", "B9", -1, "-1", "a ratio of 0 or more")
+wrong_ga_cell("unknown_criterion", "B10", "beauty", "'beauty'", A_CRITERION)
+wrong_ga_cell("criterion_by_its_number", "B10", 3, "3", A_CRITERION)
+wrong_ga_cell("criterion_like_a_formula", "B10", "=cost+moment", "'=cost+moment'", A_CRITERION)
+wrong_ga_cell("criterion_without_value", "B10", Raw("><f>B9</f>"), NO_VALUE, A_CRITERION)
+wrong_ga_cell("zero_fos", "B11", 0, "0", "a factor of safety above 0")
+wrong_ga_cell("zero_goal", "B12", 0, "0", A_GOAL)
+wrong_ga_cell("negative_goal", "B13", -9000, "-9000", A_GOAL)
+wrong_ga_cell("text_for_a_goal", "B14", "low", "the text 'low'", A_GOAL)
+wrong_ga_cell("goal_like_a_formula", "B12", "=E12", "the text '=E12'", A_GOAL)
+wrong_ga_cell("goal_formula_without_value", "B15", Raw("><f>2*350</f>"), NO_VALUE, A_GOAL)
+wrong_ga_cell("goal_formula_on_another_cell", "B12", Raw("><f>F12</f>"), NO_VALUE, A_GOAL)
+wrong_ga_cell("one_child", "B16", 1, "1", "a whole number from 2 to 50")
+wrong_ga_cell("too_many_children", "B16", 51, "51", "a whole number from 2 to 50")
+wrong_ga_cell("negative_seed", "B17", -1, "-1", "a whole number from 0 to 9,007,199,254,740,992")
+wrong_ga_cell("unknown_moment_arm", "B18", "2d", "'2d'", "3d or plan")
+wrong_ga_cell("index_out_of_range", "F9", 7, "7", A_CUP)
+wrong_ga_cell("index_zero", "F9", 0, "0", A_CUP)
+wrong_ga_cell("fraction_for_gene", "G9", 1.5, "the fraction 1.5", A_CUP)
+wrong_ga_cell("text_for_gene", "G9", "two", "the text 'two'", A_CUP)
+wrong_ga_cell("blank_active_gene", "G9", None, NOTHING, A_CUP)
+wrong_ga_cell("inactive_index_out_of_range", "J9", 7, "7", A_CUP)
+wrong_ga_cell("gene_twice", "G9", 1, "the index 1 a second time", "active indices that differ")
+wrong_ga_cell("count_above_max", "E9", 6, "6", ONE_TO_FIVE)
+wrong_ga_cell("count_below_min", "E10", 0, "0", ONE_TO_FIVE)
+wrong_ga_cell("fraction_for_count", "E10", 1.5, "the fraction 1.5", ONE_TO_FIVE)
+wrong_ga_cell("blank_count", "E10", None, NOTHING, ONE_TO_FIVE)
+wrong_ga_cells(
+    "count_above_what_the_block_has",
+    {"H8": None, "H9": None, "I9": None, "J9": None, "E9": 3},
+    Problem(f"{GA}!E9", "3", "a whole number from 1 to 2"),
+)
+wrong_ga_cells(
+    "many_things_at_once_on_the_ga_sheet",
+    {"B4": "no", "B10": "?", "B12": 0, "F9": 99, "F10": 99, "G9": None},
+    Problem(f"{GA}!B4", "the text 'no'", A_SWITCH),
+    Problem(f"{GA}!B10", "'?'", A_CRITERION),
+    Problem(f"{GA}!B12", "0", A_GOAL),
+    Problem(f"{GA}!F9", "99", A_CUP),
+    Problem(f"{GA}!G9", NOTHING, A_CUP),
+    Problem(f"{GA}!F10", "99", "a magnets index, a whole number from 1 to 6"),
+)
+wrong_book(
+    "no_element_in_the_grasp",
+    lambda path: write_book(
+        path,
+        {
+            SHEET: export_rows() | {"B11": 0, "B19": 0},
+            GA: ga_rows() | {"E9": 0, "E10": 0},
+        },
+    ),
+    Problem(f"{GA}!E9", "no element at all", "at least one element"),
+)
+wrong_book(
+    "name_of_another_shape",
+    lambda path: write_book(
+        path, {SHEET: export_rows(), GA: ga_rows()}, {"UserChromosome": f"{GA}!$A$1:$XFD$1048576"}
+    ),
+    Problem(
+        f"{GA}!A1",
+        "the name UserChromosome on 1048576 rows and 16384 columns",
+        "2 rows of a count and indices",
+    ),
+)
+wrong_book(
+    "polygon_name_of_whole_columns",
+    lambda path: write_book(
+        path, {SHEET: export_rows()}, {"IdealPolygon": f"'{SHEET}'!$L$1:$N$1048576"}
+    ),
+    Problem(f"{SHEET}!L1", "1,048,576 corners", CORNERS),
 )
 
 
@@ -748,6 +1044,16 @@ fine_cells("formula_with_value", {"B5": Raw("><f>1000*8.86</f><v>8860</v>")})
 fine_cells("blank_weights", {"B15": None, "B23": None})
 fine_cells("free_cups", {"B14": 0})
 fine_cells("max_above_total", {"B12": 50})
+fine_cells("no_index", {"C2": None} | {f"C{row}": None for row in range(5, 11)})
+fine_cells("longer_index", {f"C{row}": row - 4 for row in range(5, 40)})
+fine_cells("note_below_a_list", {"D13": "checked by Ann", "G12": " "})
+fine_cells(
+    "formulas_without_values_below_a_list",
+    {f"{column}{row}": Raw('><f>""</f>') for column in "DEF" for row in range(11, 15)},
+)
+fine_cells("no_cups", NO_CUPS | {"B11": 0})
+fine_cells("no_magnets_wanted", NO_MAGNETS | {"B19": 0, "B20": 0})
+fine_cells("scale_factor_of_one", {"L1": 1})
 FINE_CASES.append(
     Case("other_sheet_name", lambda path: write_book(path, {"Export 7": export_rows()}))
 )
@@ -757,6 +1063,37 @@ FINE_CASES.append(
         lambda path: write_book(path, {"Notes": {"A1": "by Ann"}, SHEET: export_rows()}),
     )
 )
+
+
+def fine_ga_cells(name: str, change: Mapping[str, Value]) -> None:
+    """Register a tiny export with a GA sheet whose changed cells must not disturb."""
+    FINE_CASES.append(Case(name, lambda path: ga_book(path, change)))
+
+
+fine_ga_cells("good_ga_sheet", {})
+fine_ga_cells(
+    "goals_that_are_our_formulas", {"B12": Raw("><f>E12</f>"), "B13": Raw("><f>GA!$F$12</f>")}
+)
+fine_ga_cells("goal_formula_with_value", {"B12": Raw("><f>2*30</f><v>60</v>")})
+fine_ga_cells("switches_as_booleans", {"B4": _TRUE, "B5": _FALSE})
+fine_ga_cells("words_in_other_letters", {"B10": " Moment + COST", "B18": "3D "})
+fine_ga_cells("no_parameters", {f"B{row}": None for row in range(4, 19)})
+fine_ga_cells("no_grasp", {f"{column}{row}": None for column in "EFGHIJ" for row in (9, 10)})
+fine_ga_cells("blank_inactive_genes", {"H9": None, "I9": " ", "J9": None, "G10": None})
+
+
+def with_chart_sheet(path: Path) -> None:
+    """Write the tiny export behind a sheet that is a chart and has no cells."""
+    with xlsxwriter.Workbook(path) as book:
+        chart = book.add_chart({"type": "line"})
+        chart.add_series({"values": f"='{SHEET}'!$E$5:$E$10"})
+        book.add_chartsheet("Plan").set_chart(chart)
+        sheet = book.add_worksheet(SHEET)
+        for cell, value in export_rows().items():
+            sheet.write(cell, value)
+
+
+FINE_CASES.append(Case("chart_sheet", with_chart_sheet))
 
 
 def main(folder: Path) -> None:

@@ -97,9 +97,7 @@ def keeps_clearance(space: OptionSpace, rules: Rules, child: Chromosome) -> bool
     """Tell whether all active elements are far enough apart; one or none always are."""
     if child.counts.sum() < 2:
         return True
-    grasp = evaluate(space, rules, child)
-    bar = rules.requirements.clearance_mm
-    return grasp.clearance_mm is None or grasp.clearance_mm >= bar * (1 - 1e-9)
+    return evaluate(space, rules, child).is_clear
 
 
 def next_generation(

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-import datetime
+import datetime as dt
 import math
+import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
@@ -36,6 +38,7 @@ LABEL_ROWS = 500
 
 ERROR_VALUES = ("#N/A", "#REF!", "#DIV/0!", "#VALUE!", "#NAME?", "#NUM!", "#NULL!")
 
+_PLACE = re.compile(r".+!\$?[A-Z]{1,3}\$?[1-9]\d*(:\$?[A-Z]{1,3}\$?[1-9]\d*)?")
 _AS_FAR_AS_A_ROW_GOES = 0
 _MAX_DIGITS = 20  # of a whole number that a message shows
 
@@ -112,7 +115,7 @@ def read_grid(
     if isinstance(worksheet, Chartsheet):
         return Grid(sheet, filled)
     size = 0
-    for number, cells in sheet_rows(package, worksheet, _AS_FAR_AS_A_ROW_GOES):  # type: ignore[arg-type]
+    for number, cells in sheet_rows(package, worksheet, _AS_FAR_AS_A_ROW_GOES):
         if number > rows:
             break
         size += len(cells)
@@ -124,18 +127,16 @@ def read_grid(
             values.pop()
         if values:
             filled[number - 1] = tuple(values)
-        if len(filled) > MAX_FILLED_ROWS or size > MAX_CELLS:
-            raise InputError([_too_large(sheet)])
+        if len(filled) > MAX_FILLED_ROWS:
+            raise _too_many(sheet, "filled rows", MAX_FILLED_ROWS)
+        if size > MAX_CELLS:
+            raise _too_many(sheet, "cells", MAX_CELLS)
     return Grid(sheet, filled)
 
 
-def _too_large(sheet: str) -> Problem:
-    return Problem(
-        sheet,
-        f"more than {MAX_FILLED_ROWS:,} filled rows, or {MAX_CELLS:,} cells",
-        "an option space",
-        "use a larger pitch, and move other data to another sheet",
-    )
+def _too_many(sheet: str, what: str, limit: int) -> InputError:
+    hint = "use a larger pitch, and move other data to another sheet"
+    return InputError([Problem(sheet, f"more than {limit:,} {what}", f"at most {limit:,}", hint)])
 
 
 @dataclass
@@ -162,12 +163,13 @@ class Source:
         """Defined names that stand for a block of cells on a sheet that exists."""
         areas = {}
         for name, definition in self.values.defined_names.items():
-            try:
-                area = area_of(definition.attr_text or "")
-            except ValueError:
+            reference = definition.attr_text or ""
+            if not _PLACE.fullmatch(reference):  # a constant or a calculation
                 continue
-            if area.sheet in self.values.sheetnames:
-                areas[name] = area
+            with suppress(ValueError):
+                area = area_of(reference)
+                if area.sheet in self.sheets:
+                    areas[name] = area
         return areas
 
     @property
@@ -257,6 +259,7 @@ class Source:
         most: float = math.inf,
         whole: bool = False,
         limit: float = MAX_NUMBER,
+        hint: str = "correct the number",
     ) -> float | None:
         """Read a number, or note why there is none.
 
@@ -272,11 +275,13 @@ class Source:
             Whether fractions are refused.
         limit : float
             Magnitude beyond which no number is believed.
+        hint : str
+            What to do about a number that is out of bounds.
         """
         number = as_number(self.value(cell), limit)
         if isinstance(number, float):
             if not (above + MIN_DISTANCE <= number and least <= number <= most):
-                number = Fault(shown(number), "correct the number")
+                number = Fault(shown(number), hint)
             elif whole and not number.is_integer():
                 number = Fault(f"the fraction {shown(number)}", "type a whole number")
             else:
@@ -289,15 +294,17 @@ class Source:
 
 def as_number(value: Value, limit: float = MAX_NUMBER) -> float | Fault:
     """Turn a cell's value into a number, or say why it is no usable one."""
-    if is_blank(value):
-        return EMPTY
-    if isinstance(value, bool):
-        return Fault(f"the truth value {str(value).upper()}", "type a number there")
-    if isinstance(value, int | float):
+    if isinstance(value, int | float) and not isinstance(value, bool):
         if abs(value) <= limit:  # compares exactly, however long a whole number is
             return float(value)
         return Fault(shown(value), f"type a number of at most {limit:,.0f}")
-    if isinstance(value, datetime.date | datetime.time | datetime.timedelta):
+    return EMPTY if is_blank(value) else _no_number(value)
+
+
+def _no_number(value: Value) -> Fault:
+    if isinstance(value, bool):
+        return Fault(f"the truth value {str(value).upper()}", "type a number there")
+    if isinstance(value, dt.date | dt.time | dt.timedelta):
         hint = "type the number again and give the cell a number format, not a date's"
         return Fault(f"the date or time {value}", hint)
     text = str(value)

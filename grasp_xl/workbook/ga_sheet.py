@@ -1,49 +1,80 @@
-"""Sheet ``GA`` (figures 27 to 34): parameters, chromosome blocks, child cards."""
+"""Sheet ``GA`` (figures 27 to 34): parameters, chromosome blocks, live cards."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass, replace
 
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.result import Result
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout
-from grasp_xl.workbook.cards import GENE_STYLES, card_cells, chromosome_cells, fitness_cells
-from grasp_xl.workbook.layout import Card, Field, Layout
+from grasp_xl.workbook.calc_sheet import CalcBlock
+from grasp_xl.workbook.cards import GENE_STYLES, LiveCard, chromosome_cells, fitness_cells
+from grasp_xl.workbook.designs_sheet import picked_genes
+from grasp_xl.workbook.guidance import guide_blocks, guide_card, guide_parameters
+from grasp_xl.workbook.layout import Card, Layout
 from grasp_xl.workbook.pen import CellValue, Pen
 from grasp_xl.workbook.styles import Style
 
+USER_CALC = 0
+"""Place of the user-defined block's helper cells on ``Calc``; the cards' follow."""
 
-def write_ga(
-    pen: Pen,
-    plan: Layout,
-    task: Task,
-    result: Result,
-    what_if: Grasp,
-    stale_user: Chromosome | None,
-) -> None:
-    """Write the sheet as the last generation left it.
 
-    ``stale_user`` are user-defined genes that the option space does not have: shown, not used.
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """What the sheet shows beside the result.
+
+    Parameters
+    ----------
+    what_if : Grasp
+        Grasp of the What-if card.
+    typed_what_if : bool
+        Whether the designer typed it; else its genes follow the picked valid design.
+    stale_user : Chromosome or None
+        User-defined genes that the option space does not have: shown, not used.
     """
+
+    what_if: Grasp
+    typed_what_if: bool
+    stale_user: Chromosome | None
+
+
+def write_ga(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) -> list[LiveCard]:
+    """Write the sheet as the last generation left it, and return its cards."""
     pen.write(0, 0, "GENETIC ALGORITHM", Style.TITLE)
     _parameters(pen, plan, task)
-    _blocks(pen, plan, task, result, stale_user)
-    _cards(pen, plan, task, result, what_if)
+    _blocks(pen, plan, task, result, shown)
+    cards = _cards(plan, task, result, shown)
+    for name, live in cards.items():
+        pen.put(live.cells())
+        pen.name_area(name, live.card.genes)
+        pen.name_area(f"{name}Fitness", live.card.fitness)
+        pen.name_area(f"{name}Divergence", live.card.divergence)
+        guide_card(pen, live.card, task.space)
+    _look(pen, plan)
+    return list(cards.values())
+
+
+def _look(pen: Pen, plan: Layout) -> None:
     pen.sheet.freeze_panes(1, 0)
-    pen.sheet.set_column(0, 0, 36)
+    pen.sheet.set_column(0, 0, 34)
     pen.sheet.set_column(1, 1, 12)
-    pen.sheet.set_column(2, 2, 3)
+    pen.sheet.set_column(2, 2, 2)
     for number in range(plan.children + 1):
-        column = plan.card(number).column
-        pen.sheet.set_column(column, column, 23)
-        pen.sheet.set_column(column + 1, column + plan.card_columns - 1, 11)
-        pen.sheet.set_column(column + plan.card_columns, column + plan.card_columns, 3)
+        card = plan.card(number)
+        pen.sheet.set_column(card.column, card.column, 21)
+        pen.sheet.set_column(card.column + 1, card.column + card.columns - 1, 10)
+        pen.sheet.set_column(card.column + card.columns, card.column + card.columns, 2)
+    last = plan.what_if
+    pen.sheet.print_area(0, 0, last.row + last.summary_row + 23, last.column + last.columns)
+    pen.sheet.fit_to_pages(1, 1)
 
 
-def _parameters(pen: Pen, plan: Layout, task: Task) -> None:
-    known = task.parameters
+def parameter_values(task: Task) -> dict[str, CellValue]:
+    """Return the value of every parameter cell, by defined name."""
     need = task.rules.requirements
-    values: dict[str, CellValue] = {
+    return {
         "UserStart": int(task.settings.user_start),
         "Elitism": int(task.settings.elitism),
         "MutationOneIn": task.settings.one_in,
@@ -52,73 +83,75 @@ def _parameters(pen: Pen, plan: Layout, task: Task) -> None:
         "DensityRatio": need.density_ratio,
         "FitnessCriterion": task.rules.criterion.name,
         "FoSGoal": need.fos,
+        **dict(zip(layout.GOAL_NAMES, task.rules.goals.base, strict=True)),
         "Children": task.settings.children,
         "Seed": task.settings.seed,
         "MomentArm": need.moment_arm,
     }
+
+
+def _parameters(pen: Pen, plan: Layout, task: Task) -> None:
     pen.row(layout.PARAMETER_ROW, 0, layout.PARAMETER_HEADER, Style.HEADER)
     user = plan.block_genes(layout.USER_BLOCK)
-    for field in layout.PARAMETERS:
+    for field, value in zip(layout.PARAMETERS, parameter_values(task).values(), strict=True):
         cell = plan.parameter(field.name)
         pen.write(cell.row, 0, field.label, Style.LABEL)
         pen.name_area(field.name, cell)
+        formula, style = None, Style.INPUT_TEXT if isinstance(value, str) else Style.INPUT
         if field.name in layout.GOAL_NAMES:
             number = layout.GOAL_NAMES.index(field.name)
-            source = user.cell(3, number)
-            typed = known.goals[number] is not None
-            formula = None if typed else source.local
-            goal = task.rules.goals.base[number]
-            pen.write(cell.row, cell.column, goal, Style.GOAL, formula)
-        else:
-            value = values[field.name]
-            style = Style.INPUT_TEXT if isinstance(value, str) else Style.INPUT
-            pen.write(cell.row, cell.column, value, style)
+            typed = task.parameters.goals[number] is not None
+            formula = None if typed else user.cell(3, number).local
+            style = Style.GOAL
+        pen.write(cell.row, cell.column, value, style, formula)
+    guide_parameters(pen, plan)
 
 
-def _blocks(
-    pen: Pen, plan: Layout, task: Task, result: Result, stale_user: Chromosome | None
-) -> None:
+def _blocks(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) -> None:
     state = result.state
     remark = f" {layout.ASSIGNED_MARK}" if task.assigned else ""
-    if stale_user:
+    if shown.stale_user:
         remark = " (stale: choose other indices)"
-    shown = stale_user or task.benchmark.chromosome
-    blocks: tuple[tuple[Field, str, Chromosome], ...] = (
+    blocks = (
         (layout.RANDOM_BLOCK, f" (seed {task.settings.seed})", state.random_chromosome),
-        (layout.USER_BLOCK, remark, shown),
+        (layout.USER_BLOCK, remark, shown.stale_user or task.benchmark.chromosome),
         (layout.INITIAL_BLOCK, "", state.initial),
         (layout.PARENT_BLOCK, "", state.parent),
-        (layout.MATRIX_BLOCK, "", Chromosome(result.matrix)),
+        (layout.MATRIX_BLOCK, "", None),
     )
     for block, addition, chromosome in blocks:
         title = plan.block(block)
-        pen.write(title.row, title.column, f"{block.label}{addition}", Style.HEADING)
-        header = title.cell(1, 0)
-        pen.put(chromosome_cells(header, chromosome, plan.gene_slots))
+        for column in range(plan.what_if.columns):
+            text = None if column else f"{block.label}{addition}"
+            pen.write(title.row, title.column + column, text, Style.HEADING)
+        pen.put(chromosome_cells(title.cell(1, 0), chromosome, plan.gene_slots))
         pen.name_area(block.name, plan.block_genes(block))
-    _matrix_zeros(pen, plan, result)
-    judged = None if stale_user else task.benchmark
-    pen.put(fitness_cells(plan.block(layout.USER_BLOCK).cell(4, 0), judged))
-
-
-def _matrix_zeros(pen: Pen, plan: Layout, result: Result) -> None:
-    """Write zeros as zeros: in a matrix they are no blank genes."""
-    area = plan.block_genes(layout.MATRIX_BLOCK)
+    matrix = plan.block_genes(layout.MATRIX_BLOCK)
     for row, marks in enumerate(result.matrix.tolist()):
-        pen.row(area.row + row, area.column, marks, GENE_STYLES[row])
+        pen.row(matrix.row + row, matrix.column, marks, GENE_STYLES[row])
+    under = plan.block(layout.USER_BLOCK).cell(4, 0)
+    pen.put(fitness_cells(under, task.benchmark, user_block(plan)))
+    guide_blocks(pen, plan, task.space)
 
 
-def _cards(pen: Pen, plan: Layout, task: Task, result: Result, what_if: Grasp) -> None:
+def user_block(plan: Layout) -> CalcBlock:
+    """Return the helper cells of the user-defined chromosome."""
+    return CalcBlock(USER_CALC, plan.gene_slots, plan.block_genes(layout.USER_BLOCK))
+
+
+def _cards(plan: Layout, task: Task, result: Result, shown: Shown) -> dict[str, LiveCard]:
+    def live(number: int, card: Card, title: str, grasp: Grasp) -> LiveCard:
+        block = CalcBlock(USER_CALC + 1 + number, plan.gene_slots, card.genes)
+        return LiveCard(card, block, title, task.space, task.rules, grasp)
+
+    cards = {}
     for number, child in enumerate(result.children):
         elite = " (Elite)" if number == 0 and task.settings.elitism else ""
-        name = f"Child{number + 1}"
         grasp = evaluate(task.space, task.rules, child)
-        _card(pen, plan.card(number), name, f"Child {number + 1}{elite}", task, grasp)
-    _card(pen, plan.what_if, layout.WHAT_IF.name, layout.WHAT_IF.label, task, what_if)
-
-
-def _card(pen: Pen, card: Card, name: str, title: str, task: Task, grasp: Grasp) -> None:
-    pen.put(card_cells(card, title, task.space, task.rules, grasp))
-    pen.name_area(name, card.genes)
-    pen.name_area(f"{name}Fitness", card.fitness)
-    pen.name_area(f"{name}Divergence", card.divergence)
+        title = f"Child {number + 1}{elite}"
+        cards[f"Child{number + 1}"] = live(number, plan.card(number), title, grasp)
+    what_if = live(len(cards), plan.what_if, layout.WHAT_IF.label, shown.what_if)
+    if not shown.typed_what_if:
+        what_if = replace(what_if, gene_formulas=picked_genes(plan.gene_slots))
+    cards[layout.WHAT_IF.name] = what_if
+    return cards

@@ -1,4 +1,8 @@
-"""Sheet ``Grasp``: plan views to scale (figures 12, 36, 41) of the best and the benchmark grasp."""
+"""Sheet ``Grasp``: live plan views to scale (figures 12, 36, 41), drawn from points beside them.
+
+Elements are circles of their true diameter.  A point that is not there (no such element) is #N/A,
+which a chart leaves out.
+"""
 
 from __future__ import annotations
 
@@ -11,160 +15,312 @@ import numpy as np
 
 from grasp_xl.grasp import Grasp
 from grasp_xl.space import FloatArray, OptionSpace
-from grasp_xl.workbook.layout import DEFAULT_DIAMETERS_MM, GRASP, GRASP_DATA_COLUMN, KINDS
+from grasp_xl.workbook import layout
+from grasp_xl.workbook.calc_sheet import (
+    EDGE_COLUMN,
+    PART_POLYGON_COLUMN,
+    CalcBlock,
+    closed_polygon,
+)
+from grasp_xl.workbook.layout import (
+    DEFAULT_DIAMETERS_MM,
+    GRASP,
+    GRASP_DATA_COLUMN,
+    KINDS,
+    OPTION_SPACE,
+    Area,
+)
 from grasp_xl.workbook.pen import Pen
-from grasp_xl.workbook.styles import BLACK, BLUE, CYAN, GREEN, MAGENTA, RED, Style
+from grasp_xl.workbook.styles import (
+    BLACK,
+    BLUE,
+    CYAN,
+    DARK_CYAN,
+    DARK_MAGENTA,
+    GREEN,
+    MAGENTA,
+    RED,
+    Style,
+)
 
-KIND_COLOURS = (CYAN, MAGENTA)
-CIRCLE_CORNERS = 36
+PLACE_COLOURS = (CYAN, MAGENTA)
+ELEMENT_COLOURS = (DARK_CYAN, DARK_MAGENTA)
+CORNERS = 36
+"""Corners of a circle."""
 PLOT_WIDTH, PLOT_HEIGHT = 720, 480
 """Inner plot area of a picture (pixels); both axes get the same millimetres a pixel."""
-FRAME = 90
+FRAME = 80
 """Pixels around the plot area for axes, title and legend."""
-MARGIN = 0.06
+X_UNITS, Y_UNITS = 12, 8
+"""Tick distances from the middle to the edges: the proportion of the plot area."""
+ROUND_STEPS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+MARGIN = 0.04
 """Free part of the extent on each side."""
+PICTURE_COLUMNS = 14
+PICTURE_ROWS = 36
+FIRST_POINT = 3
+NO_POINT = "#N/A"
 
-PICTURE_ROWS = 34
-
-Points = list[tuple[float, float] | None]
+Number = float | str
+Pair = tuple[Number, Number]
 
 
 @dataclass(frozen=True, slots=True)
-class Layer:
-    """One series of the picture; None between points lifts the pen."""
+class Picture:
+    """One plan view: a title, the grasp as the engine sees it, and its helper cells."""
 
-    name: str
-    points: Points
-    look: dict[str, Any]
+    title: str
+    grasp: Grasp
+    block: CalcBlock
 
 
-def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[tuple[str, Grasp]]) -> None:  # noqa: ANN401
-    """Write one picture a grasp, and the points that it is drawn from beside it."""
-    pen.write(0, 0, "GRASP: plan view to scale (mm)", Style.TITLE)
-    column = GRASP_DATA_COLUMN
-    for number, (title, grasp) in enumerate(pictures):
-        chart = book.add_chart({"type": "scatter", "subtype": "straight"})
-        for layer in layers(space, grasp):
-            _add(pen, chart, layer, column)
-            column += 3
-        _to_scale(chart, space, title)
-        pen.sheet.insert_chart(2 + number * PICTURE_ROWS, 0, chart)
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """A line of the picture: points and the formulas that give them; x and y of each."""
+
+    points: list[Pair]
+    formulas: list[tuple[str, str]]
+
+
+def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]) -> None:  # noqa: ANN401 (untyped library)
+    """Write one picture a grasp, side by side, and the points that each is drawn from."""
+    pen.write(0, 0, "GRASP: plan view to scale (mm), live with the What-if card", Style.TITLE)
     pen.write(0, GRASP_DATA_COLUMN, "Points that the pictures are drawn from", Style.NOTE)
+    column = GRASP_DATA_COLUMN
+    turns = np.linspace(0.0, 2.0 * math.pi, CORNERS + 1)
+    pen.row(2, column, ("cosine", "sine"), Style.HEADER)
+    for row, turn in enumerate(turns.tolist(), FIRST_POINT):
+        pen.row(row, column, (math.cos(turn), math.sin(turn)), Style.COORDINATE)
+    column += 3
+    for number, picture in enumerate(pictures):
+        chart = book.add_chart({"type": "scatter", "subtype": "straight"})
+        _add_background(chart, space)
+        column = _add_strokes(pen, chart, space, picture, column)
+        _to_scale(chart, space, picture.title)
+        pen.insert_chart(2, number * PICTURE_COLUMNS, chart)
+    pen.fix_row_heights()
+    pen.sheet.print_area(0, 0, PICTURE_ROWS, len(pictures) * PICTURE_COLUMNS)
+    pen.sheet.fit_to_pages(1, 1)
 
 
-def layers(space: OptionSpace, grasp: Grasp) -> Iterator[Layer]:
-    """Yield what the picture shows, from the bottom up."""
-    for kind, labels, colour in zip(space.kinds, KINDS, KIND_COLOURS, strict=True):
-        if kind.total:
-            dot = {"type": "circle", "size": 3, "border": {"color": colour}, "fill": {"none": True}}
-            look = {"line": {"none": True}, "marker": dot}
-            yield Layer(f"Places for {labels.plural}", _flat(kind.footprints_mm), look)
-    yield Layer("Part polygon", _closed(space.approximation_polygon_mm), _line(GREEN, 1.5))
-    yield Layer("Ideal polygon", _closed(space.ideal_polygon_mm), _line(BLUE, 1.5))
-    main, branches = trusses(grasp)
-    yield Layer("Branch trusses", branches, _line(RED, 1))
-    yield Layer("Main truss", main, _line(RED, 3))
-    for number, labels in enumerate(KINDS):
-        circles = _circles(space, grasp, number)
-        yield Layer(labels.plural.capitalize(), circles, _line(KIND_COLOURS[number], 2.25))
-    yield Layer("Centroid", _flat(space.part.centroid_mm[None, :]), _mark("x", BLACK, 8))
-    yield Layer(
-        "Centre of force", _flat(grasp.centre_of_force_mm[None, :]), _mark("diamond", BLACK, 8)
-    )
-
-
-def trusses(grasp: Grasp) -> tuple[Points, Points]:
-    """Return the main truss, and from it the branches to all other elements (section 4.2.3.4)."""
-    if grasp.main_truss is None:
-        return [], []
-    plan = grasp.points_mm[:, :2]
-    start, end = plan[list(grasp.main_truss)]
-    axis = end - start
-    branches: Points = []
-    for number, point in enumerate(plan):
-        if number not in grasp.main_truss and axis.any():
-            foot = start + axis * float((point - start) @ axis / (axis @ axis))
-            branches += [_pair(point), _pair(foot), None]
-    return [_pair(start), _pair(end)], branches
-
-
-def _circles(space: OptionSpace, grasp: Grasp, number: int) -> Points:
-    diameter = space.kinds[number].diameter_mm or DEFAULT_DIAMETERS_MM[number]
-    turns = np.linspace(0.0, 2.0 * math.pi, CIRCLE_CORNERS + 1)
-    ring = np.column_stack([np.cos(turns), np.sin(turns)]) * diameter / 2
-    points: Points = []
-    for index in grasp.chromosome.active[number]:
-        centre = space.kinds[number].footprints_mm[index - 1, :2]
-        points += [*map(_pair, centre + ring), None]
-    return points
-
-
-def _flat(points: FloatArray) -> Points:
-    return [_pair(point) for point in points]
-
-
-def _closed(polygon: FloatArray) -> Points:
-    return _flat(np.vstack([polygon, polygon[:1]]))
-
-
-def _pair(point: FloatArray) -> tuple[float, float]:
-    return float(point[0]), float(point[1])
+def _series(name: str, x: Area, y: Area, look: dict[str, Any]) -> dict[str, Any]:
+    return {"name": name, "categories": f"={x.reference}", "values": f"={y.reference}", **look}
 
 
 def _line(colour: str, width: float) -> dict[str, Any]:
     return {"line": {"color": colour, "width": width}, "marker": {"type": "none"}}
 
 
-def _mark(shape: str, colour: str, size: int) -> dict[str, Any]:
-    marker = {"type": shape, "size": size, "border": {"color": colour}, "fill": {"color": colour}}
+def _mark(shape: str, colour: str, size: int, *, filled: bool = True) -> dict[str, Any]:
+    fill = {"color": colour} if filled else {"none": True}
+    marker = {"type": shape, "size": size, "border": {"color": colour}, "fill": fill}
     return {"line": {"none": True}, "marker": marker}
 
 
-def _add(pen: Pen, chart: Any, layer: Layer, column: int) -> None:  # noqa: ANN401 (untyped library)
-    pen.write(1, column, layer.name, Style.HEADER)
-    pen.row(2, column, ("x", "y"), Style.UNIT)
-    for row, point in enumerate(layer.points, 3):
-        if point is not None:
-            pen.row(row, column, point, Style.COORDINATE)
-    last = max(3, 2 + len(layer.points))
-    chart.add_series(
-        {
-            "name": layer.name,
-            "categories": [GRASP, 3, column, last, column],
-            "values": [GRASP, 3, column + 1, last, column + 1],
-            **layer.look,
-        }
+def _add_background(chart: Any, space: OptionSpace) -> None:  # noqa: ANN401 (untyped library)
+    """Draw all footprints and both polygons, straight from their cells."""
+    for labels, kind, colour in zip(KINDS, space.kinds, PLACE_COLOURS, strict=True):
+        if kind.total:
+            x = Area(OPTION_SPACE, layout.FIRST_LOCATION_ROW, labels.column, kind.total)
+            y = Area(OPTION_SPACE, x.row, x.column + 1, x.rows)
+            look = _mark("circle", colour, 2, filled=False)
+            chart.add_series(_series(f"Places for {labels.plural}", x, y, look))
+    corners = len(space.ideal_polygon_mm)
+    for name, column, colour in (
+        ("Part polygon", PART_POLYGON_COLUMN, GREEN),
+        ("Ideal polygon", EDGE_COLUMN + 1, BLUE),
+    ):
+        x, y = closed_polygon(column, corners), closed_polygon(column + 1, corners)
+        chart.add_series(_series(name, x, y, _line(colour, 1.5)))
+
+
+def _add_strokes(
+    pen: Pen,
+    chart: Any,  # noqa: ANN401 (untyped library)
+    space: OptionSpace,
+    picture: Picture,
+    column: int,
+) -> int:
+    """Draw trusses, elements and centres; return the next free column."""
+    unnamed = []
+    for name, stroke, look in _strokes(space, picture, column):
+        pen.write(2, column, name or "(more)", Style.HEADER)
+        for row, (point, formulas) in enumerate(
+            zip(stroke.points, stroke.formulas, strict=True), FIRST_POINT
+        ):
+            for axis in range(2):
+                pen.write(row, column + axis, point[axis], Style.COORDINATE, formulas[axis])
+        x = Area(GRASP, FIRST_POINT, column, len(stroke.points))
+        if look is not None:
+            chart.add_series(_series(name, x, Area(GRASP, x.row, column + 1, x.rows), look))
+            if not name:
+                unnamed.append(len(chart.series) - 1)
+        column += 2
+    chart.set_legend({"position": "bottom", "delete_series": unnamed})
+    return column + 1
+
+
+def _strokes(
+    space: OptionSpace, picture: Picture, column: int
+) -> Iterator[tuple[str, Stroke, dict[str, Any] | None]]:
+    """Yield name, points and look, from the bottom up; only one of a group has a name."""
+    block = picture.block
+    ends = Area(GRASP, FIRST_POINT, column, 2)
+    yield "Main truss", _main_truss(picture), _line(RED, 3.5)
+    rows = {kind: kind * block.slots for kind in range(len(KINDS))}
+    named = False
+    for row in range(block.size):
+        if space.kinds[row // block.slots].total:
+            yield "" if named else "Branch trusses", _branch(picture, row, ends), _line(RED, 1)
+            named = True
+    for row in range(block.size):
+        number = row // block.slots
+        if space.kinds[number].total:
+            name = KINDS[number].plural.capitalize() if row == rows[number] else ""
+            yield name, _circle(space, picture, row), _line(ELEMENT_COLOURS[number], 3)
+    centroid = [(float(space.part.centroid_mm[0]), float(space.part.centroid_mm[1]))]
+    yield "Centroid", Stroke([*centroid], [("CentroidX", "CentroidY")]), _mark("x", BLACK, 9)
+    force = block.column("force (N)").reference
+    mean = [
+        f"IF(SUM({force})=0,NA(),SUMPRODUCT({force}*{block.column(axis).reference})/SUM({force}))"
+        for axis in ("x", "y")
+    ]
+    centre = picture.grasp.centre_of_force_mm
+    stroke = Stroke([(float(centre[0]), float(centre[1]))], [(mean[0], mean[1])])
+    yield "Centre of force", stroke, _mark("diamond", BLACK, 8)
+
+
+def _places(picture: Picture) -> dict[int, FloatArray]:
+    """Plan-view place of each active row of the helper cells."""
+    slots, counts = picture.block.slots, picture.grasp.chromosome.counts.tolist()
+    rows = [kind * slots + slot for kind, count in enumerate(counts) for slot in range(count)]
+    return dict(zip(rows, picture.grasp.points_mm[:, :2], strict=True))
+
+
+def _pair(point: FloatArray) -> Pair:
+    return float(point[0]), float(point[1])
+
+
+def _truss_rows(picture: Picture) -> list[int]:
+    """Rows of the helper cells that the main truss joins."""
+    rows = list(_places(picture))
+    return [rows[end] for end in picture.grasp.main_truss or ()]
+
+
+def _main_truss(picture: Picture) -> Stroke:
+    block, places = picture.block, _places(picture)
+    points: list[Pair] = [_pair(places[row]) for row in _truss_rows(picture)]
+    formulas = []
+    for end in ("main truss from", "main truss to"):
+        row = block.summary(end).reference
+        x, y = (
+            f"IF({row}=0,NA(),INDEX({block.column(axis).reference},{row}))" for axis in ("x", "y")
+        )
+        formulas.append((x, y))
+    return Stroke(points or [(NO_POINT, NO_POINT)] * 2, formulas)
+
+
+def _branch(picture: Picture, row: int, ends: Area) -> Stroke:
+    """Draw an element's branch: from it at right angles to the main truss."""
+    block, places = picture.block, _places(picture)
+    truss = _truss_rows(picture)
+    points: list[Pair] = [(NO_POINT, NO_POINT)] * 2
+    if row in places and truss and row not in truss:
+        start, end = (places[number] for number in truss)
+        axis = end - start
+        along = float((places[row] - start) @ axis / (axis @ axis)) if axis.any() else 0.0
+        points = [_pair(places[row]), _pair(start + along * axis)]
+    x, y = (block.element(axis, row).reference for axis in ("x", "y"))
+    x0, x1, y0, y1 = (ends.cell(end, axis).absolute for axis in range(2) for end in range(2))
+    dx, dy = f"({x1}-{x0})", f"({y1}-{y0})"
+    along_formula = f"((({x}-{x0})*{dx}+({y}-{y0})*{dy})/MAX({dx}^2+{dy}^2,1E-99))"
+    start_row, end_row = (
+        block.summary(end).reference for end in ("main truss from", "main truss to")
     )
+    active = block.element("active", row).reference
+    on = f"({active}=1)*({start_row}>0)*({start_row}<>{row + 1})*({end_row}<>{row + 1})=1"
+    foot = (f"{x0}+{along_formula}*{dx}", f"{y0}+{along_formula}*{dy}")
+    formulas = [
+        (f"IF({on},{x},NA())", f"IF({on},{y},NA())"),
+        (f"IF({on},{foot[0]},NA())", f"IF({on},{foot[1]},NA())"),
+    ]
+    return Stroke(points, formulas)
+
+
+def _circle(space: OptionSpace, picture: Picture, row: int) -> Stroke:
+    """Draw an element at its true diameter."""
+    block, places = picture.block, _places(picture)
+    number = row // block.slots
+    labels, assumed = KINDS[number], DEFAULT_DIAMETERS_MM[number]
+    diameter = space.kinds[number].diameter_mm or assumed
+    name = labels.diameter.name
+    radius = f"IF(ISNUMBER({name}),{name},{assumed:g})/2"
+    active = block.element("active", row).reference
+    x, y = (block.element(axis, row).reference for axis in ("x", "y"))
+    points: list[Pair] = []
+    formulas = []
+    for corner in range(CORNERS + 1):
+        turn = 2.0 * math.pi * corner / CORNERS
+        unit = np.array([math.cos(turn), math.sin(turn)])
+        here = places.get(row)
+        points.append((NO_POINT, NO_POINT) if here is None else _pair(here + unit * diameter / 2))
+        cosine, sine = (
+            Area(GRASP, FIRST_POINT + corner, GRASP_DATA_COLUMN + axis).absolute
+            for axis in range(2)
+        )
+        formulas.append(
+            (
+                f"IF({active}=1,{x}+{radius}*{cosine},NA())",
+                f"IF({active}=1,{y}+{radius}*{sine},NA())",
+            )
+        )
+    return Stroke(points, formulas)
 
 
 def _to_scale(chart: Any, space: OptionSpace, title: str) -> None:  # noqa: ANN401 (untyped library)
-    points = [kind.footprints_mm for kind in space.kinds]
-    everything = np.vstack([*points, space.approximation_polygon_mm, space.ideal_polygon_mm])[:, :2]
-    low, high = everything.min(axis=0), everything.max(axis=0)
-    middle, extent = (low + high) / 2, (high - low) * (1 + 2 * MARGIN)
-    size = np.array([PLOT_WIDTH, PLOT_HEIGHT])
-    half = size * max(extent / size) / 2
+    middle, unit = _frame(space)
+    half = (X_UNITS * unit, Y_UNITS * unit)
     for number, set_axis in enumerate((chart.set_x_axis, chart.set_y_axis)):
         set_axis(
             {
                 "name": "xy"[number] + " (mm)",
-                "min": float(middle[number] - half[number]),
-                "max": float(middle[number] + half[number]),
-                "num_format": "0",
+                "min": middle[number] - half[number],
+                "max": middle[number] + half[number],
+                "major_unit": 4 * unit,
+                "num_format": "0.###",
                 "label_position": "low",
-                "major_gridlines": {"visible": False},
                 "crossing": "min",
+                "major_gridlines": {"visible": False},
             }
         )
     width, height = PLOT_WIDTH + 2 * FRAME, PLOT_HEIGHT + 2 * FRAME
     chart.set_size({"width": width, "height": height})
-    layout = {
-        "x": FRAME / width,
-        "y": FRAME / 2 / height,
-        "width": PLOT_WIDTH / width,
-        "height": PLOT_HEIGHT / height,
-    }
-    chart.set_plotarea({"layout": layout})
+    chart.set_plotarea(
+        {
+            "layout": {
+                "x": FRAME / width,
+                "y": FRAME / 2 / height,
+                "width": PLOT_WIDTH / width,
+                "height": PLOT_HEIGHT / height,
+            }
+        }
+    )
     chart.set_title({"name": title, "name_font": {"size": 11}})
-    chart.set_legend({"position": "bottom"})
-    chart.show_blanks_as("gap")
+    chart.show_na_as_empty_cell()
+
+
+def _frame(space: OptionSpace) -> tuple[tuple[float, float], float]:
+    """Return the middle of the picture (mm), and the millimetres between its tick marks.
+
+    Both are round numbers, so that the axes are labelled by round numbers.
+    """
+    points = [kind.footprints_mm for kind in space.kinds]
+    everything = np.vstack([*points, space.approximation_polygon_mm, space.ideal_polygon_mm])[:, :2]
+    low, high = everything.min(axis=0), everything.max(axis=0)
+    extent = (high - low) * (1 + 2 * MARGIN)
+    # Half a unit is lost where the middle moves to a round number.
+    needed = max(extent[0] / 2 / (X_UNITS - 0.5), extent[1] / 2 / (Y_UNITS - 0.5))
+    power = 10.0 ** math.floor(math.log10(needed))
+    unit = next(step * power for step in ROUND_STEPS if step * power >= needed)
+    x, y = (round(float(middle) / unit) * unit for middle in (low + high) / 2)
+    return (x, y), unit

@@ -17,9 +17,18 @@ FITNESS_TABLE = "Fitness Table"
 HISTORY = "History"
 GRASP = "Grasp"
 RUN_LOG = "Run Log"
-SHEETS = (OPTION_SPACE, GA, VALID_DESIGNS, FITNESS_TABLE, HISTORY, GRASP, RUN_LOG)
+CALC = "Calc"
+SHEETS = (OPTION_SPACE, GA, VALID_DESIGNS, FITNESS_TABLE, HISTORY, GRASP, RUN_LOG, CALC)
 
 TITLE = "INPUT PARAMETERS (ALL DATA in GRAMS, MILLIMETERS, and NEWTONS)"
+
+
+MAX_CHILDREN = 50
+"""Child cards side by side."""
+
+MAX_GENERATIONS = 1_000_000_000
+MAX_SEED = 2**53
+"""Largest whole number that a cell holds exactly."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,11 +42,15 @@ class Area:
     columns: int = 1
 
     @property
-    def reference(self) -> str:
-        """Absolute reference with the sheet, as a formula or a defined name has it."""
+    def absolute(self) -> str:
+        """Reference as a formula on the same sheet has it: ``$B$5:$B$14``."""
         last_row, last_column = self.row + self.rows - 1, self.column + self.columns - 1
-        cells = xl_range_abs(self.row, self.column, last_row, last_column)
-        return f"'{self.sheet}'!{cells}"
+        return str(xl_range_abs(self.row, self.column, last_row, last_column))
+
+    @property
+    def reference(self) -> str:
+        """Reference with the sheet, as other sheets and defined names have it."""
+        return f"'{self.sheet}'!{self.absolute}"
 
     @property
     def local(self) -> str:
@@ -251,18 +264,13 @@ class Layout:
         return len(KINDS), 1 + self.gene_slots
 
     @property
-    def card_columns(self) -> int:
-        """Columns of a card: 7 in the thesis."""
-        return 2 + self.gene_slots
-
-    @property
     def card_row(self) -> int:
         """First row of the cards."""
         return PARAMETER_ROW + len(PARAMETERS) + 3
 
     def block(self, block: Field) -> Area:
         """Title cell of a chromosome block."""
-        left, right = BLOCK_COLUMN, BLOCK_COLUMN + self.card_columns + 1
+        left, right = BLOCK_COLUMN, self.card(1).column
         row, column = {
             RANDOM_BLOCK.name: (1, left),
             USER_BLOCK.name: (6, left),
@@ -279,8 +287,8 @@ class Layout:
 
     def card(self, number: int) -> Card:
         """Return the card of a child, 0-based; the one after the last child is the What-if."""
-        column = BLOCK_COLUMN + number * (self.card_columns + 1)
-        return Card(self.card_row, column, self.gene_slots)
+        first = Card(self.card_row, BLOCK_COLUMN, self.gene_slots)
+        return Card(first.row, first.column + number * (first.columns + 1), self.gene_slots)
 
     @property
     def what_if(self) -> Card:
@@ -304,6 +312,11 @@ class Card:
     def at(self, row: int, column: int, rows: int = 1, columns: int = 1) -> Area:
         """Return an area of the card, counted from its first cell."""
         return Area(GA, self.row + row, self.column + column, rows, columns)
+
+    @property
+    def columns(self) -> int:
+        """Columns of the card: 7 in the thesis."""
+        return 2 + self.gene_slots
 
     @property
     def genes(self) -> Area:
@@ -350,6 +363,7 @@ _OPEN_LISTS = {
     HISTORY: ((HISTORY_ROW, 0, 10_000),),
     GRASP: ((0, GRASP_DATA_COLUMN, 10_000),),
     RUN_LOG: ((0, 0, 1),),
+    CALC: ((0, 0, 10_000),),
 }
 
 

@@ -16,6 +16,9 @@ from grasp_xl.workbook.styles import Formats, Style
 A4 = 9
 """Excel's number of the paper size."""
 
+ROW_HEIGHT = 14.25
+"""Height of every row (points)."""
+
 CellValue = str | int | float | bool | None
 
 
@@ -48,6 +51,7 @@ class Pen:
         self.filled: set[tuple[int, int]] = set()
         self._book = book
         self.sheet.hide_gridlines(2)
+        self.sheet.set_default_row(ROW_HEIGHT)
         self.sheet.set_landscape()
         self.sheet.set_paper(A4)
         self.sheet.fit_to_pages(1, 0)
@@ -101,6 +105,15 @@ class Pen:
         self.sheet.merge_range(
             area.row, area.column, last_row, last_column, value, self.formats[style]
         )
+
+    def insert_chart(self, row: int, column: int, chart: Any) -> None:  # noqa: ANN401 (untyped library)
+        """Place a chart at its own size, whatever the cells under it."""
+        self.sheet.insert_chart(row, column, chart, {"object_position": 2})
+
+    def fix_row_heights(self) -> None:
+        """Give every filled row its height; LibreOffice would choose another and stretch charts."""
+        for row in {row for row, _ in self.filled} - set(self.sheet.row_info):
+            self.sheet.set_row(row, ROW_HEIGHT)
 
     def name_area(self, name: str, area: Area) -> None:
         """Give a block of cells a workbook-level name."""

@@ -186,20 +186,13 @@ def _kind(
 ) -> ElementKind | None:
     cells = _section(source, sheet, labels.section)
 
-    def number(suffix: str, expected: str, **bounds: float) -> float | None:
-        cell = cells.get(labels.field(suffix))
-        return source.number(cell, expected, **bounds) if cell else None
+    def cell(suffix: str) -> Area | None:
+        return cells.get(labels.field(suffix))
 
-    def count(suffix: str) -> int | None:
-        cell = cells.get(labels.field(suffix))
-        bounds = {"least": 0, "most": MAX_COUNT}
-        value = source.number(cell, A_COUNT, whole=True, **bounds) if cell else None
-        return None if value is None else int(value)
-
-    count_min, count_max = count("Min"), count("Max")
-    force = number("Force", "a force above 0 N", above=0)
-    price = number("Price", "a price of 0 $ or more", least=0)
-    weight_cell = cells.get(labels.field("Weight"))
+    count_min, count_max = _count(source, cell("Min")), _count(source, cell("Max"))
+    force_cell, price_cell, weight_cell = cell("Force"), cell("Price"), cell("Weight")
+    force = source.number(force_cell, "a force above 0 N", above=0) if force_cell else None
+    price = source.number(price_cell, "a price of 0 $ or more", least=0) if price_cell else None
     weight = None
     if weight_cell and not source.blank(weight_cell):
         weight = source.number(weight_cell, "a weight of 0 g or more, or nothing", least=0)
@@ -224,6 +217,13 @@ def _kind(
     )
 
 
+def _count(source: Source, cell: Area | None) -> int | None:
+    if cell is None:
+        return None
+    count = source.number(cell, A_COUNT, least=0, most=MAX_COUNT, whole=True)
+    return None if count is None else int(count)
+
+
 def _diameter(source: Source, sheet: str, field: Field) -> float | None:
     cell = source.locate(sheet, field)
     if cell is None or source.blank(cell):
@@ -241,18 +241,18 @@ def _check_total(
     source: Source, labels: KindLabels, cells: dict[str, Area], start: Area | None, listed: int
 ) -> None:
     cell = cells.get(labels.field("Total"))
-    if cell is None or start is None or source.value(cell) == listed:
+    if cell is None or start is None or as_number(source.value(cell)) == listed:
         return
-    total = source.number(cell, f"{listed}, the number of {labels.plural} listed")
     behind = start.cell(listed, 0)
-    if total is not None and source.formula(behind) is not None:
+    if source.formula(behind) is not None:
         source.number(behind, A_COORDINATE)  # the list goes on, in formulas without values
-    elif total is not None:
-        source.complain(
-            cell.where,
-            shown(total),
+    else:
+        source.number(
+            cell,
             f"{listed}, the number of {labels.plural} listed",
-            "correct the total or the list, or export the option space again",
+            least=listed,
+            most=listed,
+            hint="correct the total or the list, or export the option space again",
         )
 
 
@@ -380,15 +380,11 @@ def _check_lists(
     if label is None:
         return
     index = label.cell(layout.FIRST_LOCATION_ROW - layout.LOCATION_HEADER_ROW, 0)
-    for number in range(longest):
-        value = source.value(index.cell(number, 0))
-        if value != number + 1:
-            source.complain(
-                index.cell(number, 0).where,
-                "an empty cell" if is_blank(value) else repr(value),
-                f"the index {number + 1}",
-                "number the footprints 1, 2, 3, ... without gaps",
-            )
+    for row in range(longest):
+        cell, number = index.cell(row, 0), row + 1
+        if as_number(source.value(cell)) != number:
+            hint = "number the footprints 1, 2, 3, ... without gaps"
+            source.number(cell, f"the index {number}", least=number, most=number, hint=hint)
             return
 
 

@@ -14,16 +14,9 @@ from grasp_xl.space import OptionSpace
 from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import LABEL_ROWS, Source, cells_of, is_blank, normal
-from grasp_xl.workbook.layout import Area, Field
+from grasp_xl.workbook.layout import MAX_CHILDREN, MAX_GENERATIONS, MAX_SEED, Area, Field
 
 T = TypeVar("T")
-
-MAX_CHILDREN = 50
-"""Cards side by side on the sheet."""
-
-MAX_GENERATIONS = 1_000_000_000
-MAX_SEED = 2**53
-"""Largest whole number that a cell holds exactly."""
 
 A_CRITERION = f"{DIVERGENCE}, one of {', '.join(TERMS)}, or some of these joined by +"
 AN_ARM = "3d or plan"
@@ -31,10 +24,10 @@ AN_ARM = "3d or plan"
 
 def find_ga_sheet(source: Source) -> str | None:
     """Return the sheet with the parameters: by its names, else by its first label."""
-    first = layout.PARAMETERS[0]
-    if first.name in source.names:
-        return source.names[first.name].sheet
-    label = next(source.sheets_with(first.label), None)
+    for field in layout.PARAMETERS:
+        if field.name in source.names:
+            return source.names[field.name].sheet
+    label = next(source.sheets_with(layout.PARAMETERS[0].label), None)
     return label.sheet if label else None
 
 
@@ -131,7 +124,7 @@ class _ParameterReader:
 
     def _shows_user_block(self, cell: Area, number: int) -> bool:
         formula = self.source.formula(cell)
-        genes = find_block(self.source, layout.USER_BLOCK)
+        genes = find_block(self.source, layout.USER_BLOCK) if formula else None
         if formula is None or genes is None:
             return False
         shown = genes.cell(3, number)  # the values, cost behind FoS, two rows below the genes

@@ -10,10 +10,11 @@ from grasp_xl import __version__
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.search.result import Result
 from grasp_xl.task import Task
+from grasp_xl.workbook.designs_sheet import MAX_DESIGNS
+from grasp_xl.workbook.history_sheet import MAX_HISTORY
 from grasp_xl.workbook.layout import RUN_LOG, Area
 from grasp_xl.workbook.pen import CellValue, Pen
 from grasp_xl.workbook.styles import Style
-from grasp_xl.workbook.tables import MAX_DESIGNS, MAX_HISTORY
 
 INPUTS_HASH = "InputsHash"
 RANDOM_STATE = "RandomState"

@@ -5,10 +5,15 @@ from __future__ import annotations
 import hashlib
 import io
 import zipfile
+import zlib
+from pathlib import Path
+from typing import BinaryIO
 
 STAMP_PROPERTY = "grasp_xl content"
 PLACEHOLDER = "0" * 64
 STAMPED_PART = "docProps/custom.xml"
+MAX_STAMPED_BYTES = 100_000
+"""Ours has 500; as much is read of a stranger's."""
 
 
 def content_digest(archive: zipfile.ZipFile) -> str:
@@ -36,11 +41,10 @@ def stamped(content: bytes) -> bytes:
     return written.getvalue()
 
 
-def is_untouched(content: bytes) -> bool:
-    """Tell whether a workbook is one of ours, just as we wrote it."""
+def is_untouched(file: Path | BinaryIO) -> bool:
+    """Tell whether a file is a workbook of ours, just as we wrote it."""
     try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            mark = content_digest(archive).encode()
-            return mark in archive.read(STAMPED_PART)
-    except (zipfile.BadZipFile, KeyError):
-        return False
+        with zipfile.ZipFile(file) as archive, archive.open(STAMPED_PART) as part:
+            return content_digest(archive).encode() in part.read(MAX_STAMPED_BYTES)
+    except (zipfile.BadZipFile, zlib.error, KeyError, EOFError, RuntimeError, OSError):
+        return False  # no such workbook; RuntimeError is about passwords

@@ -16,11 +16,15 @@ FONT = "Arial"
 
 CYAN = "#00A0B0"
 MAGENTA = "#C2187A"
+DARK_CYAN = "#005F6B"
+DARK_MAGENTA = "#7A0B4A"
 GREEN = "#2E8B57"
 BLUE = "#1F5FBF"
 RED = "#C8102E"
 GREY = "#8A8A8A"
 BLACK = "#202020"
+SEQUENCE = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#000000")
+"""Colours of series, told apart by the colour-blind (Okabe and Ito)."""
 
 _LINE = {"border": 1, "border_color": "#BFBFBF"}
 _COMPUTED = {**_LINE, "bg_color": "#F3F5F7"}
@@ -74,6 +78,11 @@ class Style(Enum):
     RESULT = "result", {**_COMPUTED, "bold": True, "num_format": "#,##0.000"}
     DIVERGENCE = "divergence", {**_COMPUTED, "bold": True, "num_format": "0.000"}
     TEXT = "text", {**_COMPUTED}
+    ABOVE = "above", {"bg_color": "#FFE08A", "font_color": "#7A4B00", "bold": True}
+    FAILS = "fails", {"bg_color": "#F8C9C4", "font_color": "#9C0006", "bold": True}
+    PASSES = "passes", {"bg_color": "#C9EBD2", "font_color": "#00612E"}
+    STATUS = "status", {"bold": True}
+    DIFFERENCE = "difference", {**_COMPUTED, "num_format": "0.0E+00;-0.0E+00;0"}
     CENTRED = "centred", {**_COMPUTED, "align": "center"}
     DATE = "date", {**_COMPUTED, "num_format": "yyyy-mm-dd hh:mm:ss", "align": "left"}
 
@@ -84,6 +93,10 @@ class Formats:
     def __init__(self, book: Workbook) -> None:
         self._book = book
         self._made: dict[str, Format] = {}
+
+    def over(self, style: Style) -> Format:
+        """Return a style without a font, to lie over a cell's own."""
+        return self._book.add_format(style.look)
 
     def __getitem__(self, style: Style) -> Format:
         if style.name not in self._made:

@@ -8,20 +8,23 @@ import xlsxwriter
 
 from grasp_xl import __version__
 from grasp_xl.chromosome import Chromosome
-from grasp_xl.grasp import Grasp, evaluate
+from grasp_xl.grasp import evaluate
 from grasp_xl.search.result import Result
 from grasp_xl.space import OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout
-from grasp_xl.workbook.ga_sheet import write_ga
-from grasp_xl.workbook.grasp_sheet import write_grasp
+from grasp_xl.workbook.calc_sheet import write_calc
+from grasp_xl.workbook.designs_sheet import write_valid_designs
+from grasp_xl.workbook.fitness_sheet import write_fitness_table
+from grasp_xl.workbook.ga_sheet import Shown, parameter_values, user_block, write_ga
+from grasp_xl.workbook.grasp_sheet import Picture, write_grasp
+from grasp_xl.workbook.history_sheet import write_history
 from grasp_xl.workbook.layout import Layout
 from grasp_xl.workbook.option_space_sheet import write_option_space
-from grasp_xl.workbook.pen import Pen
+from grasp_xl.workbook.pen import CellValue, Pen
 from grasp_xl.workbook.run_log import Origin, write_run_log
 from grasp_xl.workbook.stamp import PLACEHOLDER, STAMP_PROPERTY, stamped
-from grasp_xl.workbook.styles import Formats
-from grasp_xl.workbook.tables import write_fitness_table, write_history, write_valid_designs
+from grasp_xl.workbook.styles import FONT, Formats
 
 Filled = dict[str, set[tuple[int, int]]]
 """Cells that a workbook fills, by sheet."""
@@ -47,8 +50,9 @@ def full_workbook(
     stale_user : Chromosome, optional
         User-defined genes that this option space does not have: shown, not used.
     """
-    shown = result.best or result.benchmark
-    card = evaluate(task.space, task.rules, what_if) if what_if else shown
+    best = result.best or result.benchmark
+    typed = evaluate(task.space, task.rules, what_if) if what_if else None
+    shown = Shown(typed or best, typed is not None, stale_user)
     plan = Layout(task.space.gene_slots, task.settings.children)
 
     file = io.BytesIO()
@@ -56,18 +60,17 @@ def full_workbook(
     formats = Formats(book)
     pens = {name: Pen(book, formats, name) for name in layout.SHEETS}
     write_option_space(pens[layout.OPTION_SPACE], task.space, live=True)
-    write_ga(pens[layout.GA], plan, task, result, card, stale_user)
-    write_valid_designs(pens[layout.VALID_DESIGNS], result)
+    cards = write_ga(pens[layout.GA], plan, task, result, shown)
+    write_valid_designs(pens[layout.VALID_DESIGNS], book, result, best.chromosome)
     write_fitness_table(pens[layout.FITNESS_TABLE], result)
     write_history(pens[layout.HISTORY], book, result)
-    write_grasp(pens[layout.GRASP], book, task.space, _pictures(result, shown))
-    write_run_log(
-        pens[layout.RUN_LOG],
-        task,
-        result,
-        origin,
-        (result.best or result.benchmark).chromosome,
-    )
+    benchmark = Picture("Benchmark grasp", result.benchmark, user_block(plan))
+    pictures = [Picture("What-if grasp", shown.what_if, cards[-1].block), benchmark]
+    write_grasp(pens[layout.GRASP], book, task.space, pictures)
+    write_run_log(pens[layout.RUN_LOG], task, result, origin, best.chromosome)
+    blocks = [(layout.USER_BLOCK.label, benchmark.block, result.benchmark)]
+    blocks += [(card.title, card.block, card.grasp) for card in cards]
+    write_calc(pens[layout.CALC], task.space, _inputs(task), blocks)
     pens[layout.GA].sheet.activate()
     book.set_custom_property(STAMP_PROPERTY, PLACEHOLDER)
     book.close()
@@ -88,6 +91,8 @@ def _new_book(file: io.BytesIO) -> xlsxwriter.Workbook:
         file,
         {
             "in_memory": True,
+            # Column widths, and so the scale of charts, are counted in digits of this font.
+            "default_format_properties": {"font_name": FONT, "font_size": 10},
             "strings_to_formulas": False,
             "strings_to_urls": False,
             "strings_to_numbers": False,
@@ -97,6 +102,17 @@ def _new_book(file: io.BytesIO) -> xlsxwriter.Workbook:
     return book
 
 
-def _pictures(result: Result, shown: Grasp) -> list[tuple[str, Grasp]]:
-    title = "Best grasp" if result.best else "No feasible grasp yet: benchmark"
-    return [(title, shown), ("Benchmark grasp", result.benchmark)]
+def _inputs(task: Task) -> dict[str, CellValue]:
+    """Return the inputs that the helper cells watch, by defined name."""
+    part = task.space.part
+    inputs: dict[str, CellValue] = {
+        "PartMass": part.mass_g,
+        **{f"Centroid{axis}": float(part.centroid_mm[n]) for n, axis in enumerate("XYZ")},
+        "ScaleFactor": task.space.scale_factor,
+        **parameter_values(task),
+    }
+    for labels, kind in zip(layout.KINDS, task.space.kinds, strict=True):
+        data = (kind.count_min, kind.count_max, kind.force_n, kind.price, kind.weight_g)
+        for suffix, value in zip(("Min", "Max", "Force", "Price", "Weight"), data, strict=True):
+            inputs[labels.field(suffix)] = value
+    return inputs

@@ -1,0 +1,429 @@
+"""Sheet ``Calc``: the helper cells behind the live cards, laid out so that a person can audit them.
+
+On the left the edges of the ideal polygon, then the inputs as they were written, then one block a
+card.  A block has a row an element (its place, force, distance to the polygon) and three square
+tables: distances, sizes of the structure with the main truss on that pair (eq. 7), and edges of the
+elements' convex hull.  Everything is plain cell arithmetic that Excel 2016 and LibreOffice share.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from grasp_xl.chromosome import BLANK_GENE
+from grasp_xl.grasp import Grasp
+from grasp_xl.space import OptionSpace
+from grasp_xl.workbook import layout
+from grasp_xl.workbook.calc_values import CalcValues
+from grasp_xl.workbook.layout import CALC, KINDS, Area, KindLabels
+from grasp_xl.workbook.pen import Cell, CellValue, Pen
+from grasp_xl.workbook.styles import Style
+
+FIRST_ROW = 3
+EDGE_COLUMN = 0
+EDGE_NAMES = ("EdgeStartX", "EdgeStartY", "EdgeX", "EdgeY", "EdgeSquared")
+EDGE_HEADER = ("i", "start x", "start y", "edge x", "edge y", "squared length")
+PART_POLYGON_COLUMN = 6
+INPUT_COLUMN = 9
+INPUTS_EDITED = "InputsEdited"
+BLOCK_COLUMN = 13
+ELEMENT_HEADER = (
+    "element",
+    "in space",
+    "active",
+    "x",
+    "y",
+    "z",
+    "force (N)",
+    "to polygon",
+    "distinct",
+    "least structure",
+)
+SUMMARY_HEADER = (
+    "counts in range",
+    "all in space",
+    "elements",
+    "longest",
+    "shortest",
+    "main truss from",
+    "main truss to",
+    "hull area",
+    "centroid inside",
+)
+TABLES = ("distance", "structure with the main truss here", "edge of the hull")
+SLACK = "1E-9"
+
+LISTED_INPUTS = (
+    "PartMass",
+    "CentroidX",
+    "CentroidY",
+    "CentroidZ",
+    *(labels.field(s) for labels in KINDS for s in ("Min", "Max", "Force", "Price", "Weight")),
+    "ScaleFactor",
+    "MinClearance",
+    "DensityRatio",
+    "FitnessCriterion",
+    "FoSGoal",
+    *layout.GOAL_NAMES,
+    "MomentArm",
+)
+"""Inputs whose change tells a card that the engine's numbers are for another state."""
+
+
+@dataclass(frozen=True, slots=True)
+class CalcBlock:
+    """Helper cells of one card.
+
+    Parameters
+    ----------
+    number : int
+        Place among the blocks, from the top.
+    slots : int
+        Index genes a kind.
+    genes : Area
+        The gene cells that the block computes from.
+    """
+
+    number: int
+    slots: int
+    genes: Area
+
+    @property
+    def size(self) -> int:
+        """Rows of the block: every gene of every kind."""
+        return self.slots * len(KINDS)
+
+    @property
+    def row(self) -> int:
+        """First row."""
+        return FIRST_ROW + self.number * (self.size + 6)
+
+    @property
+    def first(self) -> int:
+        """Row of the first element."""
+        return self.row + 4
+
+    def column(self, name: str) -> Area:
+        """All elements' cells of a column of ``ELEMENT_HEADER``."""
+        return Area(CALC, self.first, BLOCK_COLUMN + ELEMENT_HEADER.index(name), self.size)
+
+    def element(self, name: str, row: int) -> Area:
+        """One element's cell of a column."""
+        return self.column(name).cell(row, 0)
+
+    def table(self, number: int) -> Area:
+        """One of the three square tables."""
+        left = BLOCK_COLUMN + len(ELEMENT_HEADER) + 1 + number * (self.size + 1)
+        return Area(CALC, self.first, left, self.size, self.size)
+
+    def summary(self, name: str) -> Area:
+        """Return a cell of the summary row."""
+        return Area(CALC, self.row + 2, BLOCK_COLUMN + 1 + SUMMARY_HEADER.index(name))
+
+    @property
+    def engine(self) -> Area:
+        """The engine's FoS and four terms for the genes as written."""
+        return Area(CALC, self.row + 2, BLOCK_COLUMN + 2 + len(SUMMARY_HEADER), 1, 5)
+
+    @property
+    def engine_genes(self) -> Area:
+        """The genes as written."""
+        left = self.engine.column + 6
+        return Area(CALC, self.row + 1, left, len(KINDS), 1 + self.slots)
+
+    def gene(self, kind: int, slot: int) -> str:
+        """Return the reference to a gene cell; slot 0 is the count."""
+        return self.genes.cell(kind, slot).reference
+
+
+def write_calc(
+    pen: Pen,
+    space: OptionSpace,
+    inputs: dict[str, CellValue],
+    blocks: list[tuple[str, CalcBlock, Grasp]],
+) -> None:
+    """Write the sheet.
+
+    Parameters
+    ----------
+    pen : Pen
+    space : OptionSpace
+    inputs : dict
+        Values of ``LISTED_INPUTS`` as written.
+    blocks : list of tuple
+        Title, block, and what the engine says of its grasp.
+    """
+    pen.write(0, 0, "CALC: helper cells of the live cards", Style.TITLE)
+    _edges(pen, space)
+    _inputs(pen, inputs)
+    ratio = float(inputs["DensityRatio"] or 0.0)
+    for title, block, grasp in blocks:
+        pen.put(block_cells(title, block, space, grasp, ratio))
+    pen.sheet.set_column(0, 60, 10)
+    pen.sheet.set_column(INPUT_COLUMN, INPUT_COLUMN, 17)
+    pen.sheet.freeze_panes(FIRST_ROW, 0)
+
+
+def _edges(pen: Pen, space: OptionSpace) -> None:
+    """Write the ideal polygon's edges, and both polygons closed for the pictures."""
+    ideal, part = space.ideal_polygon_mm[:, :2], space.approximation_polygon_mm[:, :2]
+    corners = len(ideal)
+    pen.write(1, EDGE_COLUMN, "Edges of the ideal polygon", Style.HEADING)
+    pen.row(2, EDGE_COLUMN, (*EDGE_HEADER, "part x", "part y"), Style.HEADER)
+    edges = np.roll(ideal, -1, axis=0) - ideal
+    for number in range(corners + 1):
+        row, corner = FIRST_ROW + number, number % corners
+        pen.write(row, EDGE_COLUMN, corner + 1, Style.MARK)
+        for axis in range(2):
+            for left, name, points in (
+                (EDGE_COLUMN + 1, layout.IDEAL_POLYGON, ideal),
+                (PART_POLYGON_COLUMN, layout.APPROXIMATION_POLYGON, part),
+            ):
+                formula = f"INDEX({name},{corner + 1},{axis + 1})"
+                value = float(points[corner, axis])
+                pen.write(row, left + axis, value, Style.COORDINATE, formula)
+        if number == corners:
+            break
+        for axis in range(2):
+            here = Area(CALC, row, EDGE_COLUMN + 1 + axis)
+            formula = f"{here.cell(1, 0).local}-{here.local}"
+            value = float(edges[corner, axis])
+            pen.write(row, EDGE_COLUMN + 3 + axis, value, Style.COORDINATE, formula)
+        x, y = (Area(CALC, row, EDGE_COLUMN + 3 + axis).local for axis in range(2))
+        squared = float(edges[corner] @ edges[corner])
+        pen.write(row, EDGE_COLUMN + 5, squared, Style.COORDINATE, f"{x}^2+{y}^2")
+    for offset, name in enumerate(EDGE_NAMES):
+        pen.name_area(name, Area(CALC, FIRST_ROW, EDGE_COLUMN + 1 + offset, corners))
+
+
+def closed_polygon(column: int, corners: int) -> Area:
+    """X cells of a closed polygon; y stands right of it."""
+    return Area(CALC, FIRST_ROW, column, corners + 1)
+
+
+def _inputs(pen: Pen, inputs: dict[str, CellValue]) -> None:
+    pen.write(1, INPUT_COLUMN, "Inputs changed", Style.HEADING)
+    pen.row(2, INPUT_COLUMN, ("input", "as written", "now"), Style.HEADER)
+    for row, name in enumerate(LISTED_INPUTS, FIRST_ROW):
+        value = inputs[name]
+        pen.write(row, INPUT_COLUMN, name, Style.LABEL)
+        pen.write(row, INPUT_COLUMN + 1, value, Style.TEXT)
+        written, now = Area(CALC, row, INPUT_COLUMN + 1), Area(CALC, row, INPUT_COLUMN + 2)
+        differs = (
+            f"IF(ISNUMBER({name}),IF(ISNUMBER({written.local}),"
+            f"IF(ABS({name}-{written.local})>{SLACK}*ABS({written.local}),1,0),1),"
+            f'IF({name}&""={written.local}&"",0,1))'
+        )
+        pen.write(now.row, now.column, 0, Style.MARK, differs)
+    flags = Area(CALC, FIRST_ROW, INPUT_COLUMN + 2, len(LISTED_INPUTS))
+    pen.write(1, INPUT_COLUMN + 2, 0, Style.MARK, f"SUM({flags.absolute})")
+    pen.name_area(INPUTS_EDITED, Area(CALC, 1, INPUT_COLUMN + 2))
+
+
+def block_cells(
+    title: str, block: CalcBlock, space: OptionSpace, grasp: Grasp, density_ratio: float
+) -> Iterator[Cell]:
+    """Yield all cells of one block."""
+    values = CalcValues.of(space, grasp, block.slots, density_ratio)
+    yield Cell(block.row, BLOCK_COLUMN, title, Style.CARD_TITLE)
+    for offset, label in enumerate(SUMMARY_HEADER, 1):
+        yield Cell(block.row + 1, BLOCK_COLUMN + offset, label, Style.HEADER)
+    for offset, label in enumerate(ELEMENT_HEADER):
+        yield Cell(block.first - 1, BLOCK_COLUMN + offset, label, Style.HEADER)
+    for number, label in enumerate(TABLES):
+        table = block.table(number)
+        yield Cell(table.row - 1, table.column, label, Style.HEADER)
+    for row in range(block.size):
+        yield from _element_cells(block, space, values, row)
+    yield from _distance_cells(block, values)
+    yield from _structure_cells(block, values)
+    yield from _hull_cells(block, values)
+    yield from _summary_cells(block, values)
+    yield from _engine_cells(block, grasp)
+
+
+def _at(area: Area, value: CellValue, style: Style, formula: str | None) -> Cell:
+    return Cell(area.row, area.column, value, style, formula)
+
+
+def _element_cells(
+    block: CalcBlock, space: OptionSpace, values: CalcValues, row: int
+) -> Iterator[Cell]:
+    number, slot = divmod(row, block.slots)
+    labels = KINDS[number]
+    name = f"{labels.row_label} {slot + 1}"
+    yield Cell(block.first + row, BLOCK_COLUMN, name, Style.LABEL)
+    if space.kinds[number].total == 0:
+        for title in ELEMENT_HEADER[1:-1]:
+            yield _at(block.element(title, row), 0, Style.MARK, None)
+        yield _at(block.element("least structure", row), "", Style.COORDINATE, None)
+        return
+    gene, count = block.gene(number, slot + 1), block.gene(number, 0)
+    total = labels.field("Total")
+    in_range = f"IF(AND({gene}>=1,{gene}<={total},{gene}=INT({gene})),1,0)"
+    formulas = {
+        "in space": f"IF(ISNUMBER({gene}),{in_range},0)",
+        "active": f"IF(ISNUMBER({count}),IF({slot + 1}<={count},1,0),0)",
+        **{
+            axis: f"IF({block.element('in space', row).local}=1,"
+            f"INDEX({labels.locations_name},{gene},{position}),0)"
+            for position, axis in enumerate(("x", "y", "z"), 1)
+        },
+        "force (N)": f"{block.element('active', row).local}*{labels.field('Force')}",
+        "to polygon": _polygon_distance(block, row),
+        "distinct": _distinct(block, row),
+        "least structure": _row_least(block, row),
+    }
+    for title, formula in formulas.items():
+        style = Style.MARK if title in ("in space", "active", "distinct") else Style.COORDINATE
+        yield _at(block.element(title, row), values.element(title, row), style, formula)
+
+
+def _polygon_distance(block: CalcBlock, row: int) -> str:
+    """Distance to the nearest edge: ``t``, held between 0 and 1, is how far along it."""
+    x, y = (block.element(axis, row).local for axis in ("x", "y"))
+    raw = f"((({x}-EdgeStartX)*EdgeX+({y}-EdgeStartY)*EdgeY)/EdgeSquared)"
+    t = f"({raw}*({raw}>0)*({raw}<1)+({raw}>=1))"
+    apart = f"({x}-EdgeStartX-{t}*EdgeX)^2+({y}-EdgeStartY-{t}*EdgeY)^2"
+    active = block.element("active", row).local
+    return f"IF({active}=1,SQRT(SUMPRODUCT(MIN({apart}))),0)"
+
+
+def _distinct(block: CalcBlock, row: int) -> str:
+    """1 for an active element at whose place no active one stands before it."""
+    active = block.element("active", row).local
+    if row == 0:
+        return active
+    before = {
+        name: Area(CALC, block.first, block.column(name).column, row).absolute
+        for name in ("active", "x", "y")
+    }
+    x, y = (block.element(axis, row).local for axis in ("x", "y"))
+    twins = f"SUMPRODUCT({before['active']}*({before['x']}={x})*({before['y']}={y}))"
+    return f"IF({active}=1,IF({twins}=0,1,0),0)"
+
+
+def _row_least(block: CalcBlock, row: int) -> str:
+    table = block.table(1)
+    cells = Area(CALC, table.row + row, table.column, 1, table.columns).absolute
+    return f'IF(COUNT({cells})=0,"",MIN({cells}))'
+
+
+def _pair(block: CalcBlock, i: int, j: int) -> dict[str, str]:
+    """Words for the formulas of a pair of elements."""
+    words = {
+        f"{axis}{end}": block.element(axis, row).local
+        for axis in ("x", "y")
+        for end, row in (("i", i), ("j", j))
+    }
+    words |= {name: block.column(name).absolute for name in ("active", "distinct", "x", "y")}
+    words["longest"] = block.summary("longest").absolute
+    words["dx"] = f"({words['xj']}-{words['xi']})"
+    words["dy"] = f"({words['yj']}-{words['yi']})"
+    words["cross"] = (
+        f"({words['dx']}*({words['y']}-{words['yi']})-{words['dy']}*({words['x']}-{words['xi']}))"
+    )
+    return words
+
+
+def _distance_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
+    table = block.table(0)
+    for i in range(block.size):
+        for j in range(i + 1, block.size):
+            w = _pair(block, i, j)
+            both = f"{block.element('active', i).local}*{block.element('active', j).local}"
+            formula = f'IF({both}=1,SQRT({w["dx"]}^2+{w["dy"]}^2),"")'
+            yield _at(table.cell(i, j), values.distance[i][j], Style.COORDINATE, formula)
+
+
+def _structure_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
+    table, distances = block.table(1), block.table(0)
+    for i in range(block.size):
+        for j in range(i + 1, block.size):
+            w = _pair(block, i, j)
+            length = distances.cell(i, j).local
+            branches = f"SUMPRODUCT({w['active']}*ABS({w['cross']}))/{length}"
+            formula = (
+                f'IF({length}="","",IF({length}<{w["longest"]}*(1-{SLACK}),"",'
+                f"IF({length}=0,0,DensityRatio*{length}+{branches})))"
+            )
+            yield _at(table.cell(i, j), values.structure[i][j], Style.COORDINATE, formula)
+
+
+def _hull_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
+    """Twice the area between the centroid and each edge of the hull, counter-clockwise.
+
+    A pair is an edge when no element lies right of it, nor on its line beyond its ends.
+    """
+    table = block.table(2)
+    for i in range(block.size):
+        for j in range(block.size):
+            if i == j:
+                continue
+            w = _pair(block, i, j)
+            slack = f"{SLACK}*{w['longest']}^2"
+            along = f"({w['dx']}*({w['x']}-{w['xi']})+{w['dy']}*({w['y']}-{w['yi']}))"
+            beyond = f"(({along}<-{slack})+({along}>{w['dx']}^2+{w['dy']}^2+{slack}))"
+            outside = (
+                f"SUMPRODUCT({w['distinct']}*(({w['cross']}<-{slack})"
+                f"+(ABS({w['cross']})<={slack})*{beyond}))"
+            )
+            both = f"{block.element('distinct', i).local}*{block.element('distinct', j).local}"
+            area = (
+                f"({w['xi']}-CentroidX)*({w['yj']}-CentroidY)"
+                f"-({w['xj']}-CentroidX)*({w['yi']}-CentroidY)"
+            )
+            formula = f'IF({both}=1,IF({outside}=0,{area},""),"")'
+            yield _at(table.cell(i, j), values.hull[i][j], Style.COORDINATE, formula)
+
+
+def _summary_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
+    active, in_space = block.column("active").absolute, block.column("in space").absolute
+    distances, structures, hull = (block.table(number).absolute for number in range(3))
+    least = block.column("least structure").absolute
+    longest = block.summary("longest").local
+    start = block.summary("main truss from").local
+    twice_area = f"SUM({hull})"
+    formulas = {
+        "counts in range": _counts_in_range(block),
+        "all in space": f"IF(SUMPRODUCT({active}*(1-{in_space}))=0,1,0)",
+        "elements": f"SUM({active})",
+        "longest": f"IF(COUNT({distances})=0,0,MAX({distances}))",
+        "shortest": f'IF(COUNT({distances})=0,"",MIN({distances}))',
+        "main truss from": f"IF(COUNT({least})=0,0,MATCH(MIN({least}),{least},0))",
+        "main truss to": f"IF({start}=0,0,MATCH(MIN({least}),INDEX({structures},{start},0),0))",
+        "hull area": f"IF({twice_area}/2<={SLACK}*{longest}^2,0,{twice_area}/2)",
+        "centroid inside": f"IF({block.summary('hull area').local}=0,0,"
+        f"IF(MIN({hull})>=-{SLACK}*{longest}^2,1,0))",
+    }
+    for title, formula in formulas.items():
+        yield _at(block.summary(title), values.summary(title), Style.COORDINATE, formula)
+
+
+def _counts_in_range(block: CalcBlock) -> str:
+    tests = []
+    for number, labels in enumerate(KINDS):
+        count = block.gene(number, 0)
+        tests.append(f"IF(ISNUMBER({count}),{_count_test(labels, count)},0)")
+    total = "+".join(block.gene(number, 0) for number in range(len(KINDS)))
+    both = "*".join(tests)
+    return f"IF({both}=1,IF({total}>0,1,0),0)"
+
+
+def _count_test(labels: KindLabels, count: str) -> str:
+    least, most = labels.field("Min"), f"MIN({labels.field('Max')},{labels.field('Total')})"
+    return f"IF(AND({count}>={least},{count}<={most},{count}=INT({count})),1,0)"
+
+
+def _engine_cells(block: CalcBlock, grasp: Grasp) -> Iterator[Cell]:
+    yield Cell(block.row, block.engine.column, "engine: FoS, cost, ...", Style.NOTE)
+    for offset, value in enumerate((grasp.fos, *grasp.terms)):
+        yield _at(block.engine.cell(0, offset), value, Style.COORDINATE, None)
+    yield Cell(block.row, block.engine_genes.column, "engine: genes", Style.NOTE)
+    for number, row in enumerate(grasp.chromosome.genes.tolist()):
+        for slot, gene in enumerate(row):
+            shown = None if slot and gene == BLANK_GENE else gene
+            yield _at(block.engine_genes.cell(number, slot), shown, Style.MARK, None)

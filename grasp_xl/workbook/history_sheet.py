@@ -1,0 +1,144 @@
+"""Sheet ``History`` with its six charts (figures 42 to 47)."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from grasp_xl.search.result import Result, gene_columns
+from grasp_xl.workbook.layout import HISTORY, HISTORY_ROW, Area
+from grasp_xl.workbook.pen import Pen
+from grasp_xl.workbook.styles import BLUE, GREY, Style
+from grasp_xl.workbook.table import (
+    CRITERIA,
+    add_table,
+    gene_labels,
+    gene_styles,
+    shown_gene,
+    shown_number,
+)
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+MAX_HISTORY = 100_000
+"""Changes that the sheet lists; beyond that, the newest and the fitness table's generations."""
+
+MAX_STEPS = 1_000
+"""Changes that the charts draw: evenly chosen on their logarithmic axis."""
+
+CHART_WIDTH, CHART_HEIGHT = 560, 330
+CHART_COLUMNS, CHART_ROWS = 20, 19
+"""Columns that two charts take side by side, and rows that one takes."""
+
+
+def write_history(pen: Pen, book: Any, result: Result) -> None:  # noqa: ANN401 (untyped library)
+    """Write the generations where the fittest changed, the first and the last, and the charts."""
+    history = _listed(result)
+    genes = gene_columns(result.space)
+    labels = ["Generation", *(title for _, title, _, _ in CRITERIA), *gene_labels(result.space)]
+    pen.write(0, 0, "HISTORY: the generations where the fittest grasp changed", Style.TITLE)
+    looks = (Style.COUNT, *(style for _, _, _, style in CRITERIA), *gene_styles(result.space))
+    columns = ["generation", *(name for name, _, _, _ in CRITERIA), *genes]
+    for row, values in enumerate(history[columns].itertuples(index=False), HISTORY_ROW + 1):
+        for number, (name, value, style) in enumerate(zip(columns, values, looks, strict=True)):
+            shown = shown_gene(name, value) if name in genes else shown_number(value)
+            pen.write(row, number, shown, style)
+    rows = max(1, len(history))
+    add_table(pen, "History", Area(HISTORY, HISTORY_ROW, 0, 1 + rows, len(labels)), labels)
+    left = len(labels) + CHART_COLUMNS
+    steps = _steps(pen, history, left)
+    benchmark = _benchmark(pen, result, left + steps.columns + 1)
+    for number, (_, title, unit, _) in enumerate(CRITERIA, 1):
+        chart = _chart(book, title, unit, _column(steps, number), _column(benchmark, number))
+        row = HISTORY_ROW + CHART_ROWS * ((number - 1) // 2)
+        column = len(labels) + 1 + CHART_COLUMNS // 2 * ((number - 1) % 2)
+        pen.insert_chart(row, column, chart)
+    last = HISTORY_ROW + max(len(history), 3 * CHART_ROWS)
+    pen.fix_row_heights()
+    pen.sheet.print_area(0, 0, last, left - 1)
+    pen.sheet.freeze_panes(HISTORY_ROW + 1, 1)
+    pen.sheet.set_column(0, len(labels) - 1, 10)
+
+
+def _listed(result: Result) -> pd.DataFrame:
+    history = result.history()
+    if len(history) <= MAX_HISTORY:
+        return history
+    reported = history["generation"].isin(result.report_generations())
+    newest = history.index >= len(history) - MAX_HISTORY + int(reported.sum())
+    return history[reported | newest]
+
+
+def _steps(pen: Pen, history: pd.DataFrame, left: int) -> Area:
+    """Write the course as steps: each value also at the generation before the next change."""
+    shown = history
+    if len(history) > MAX_STEPS:
+        logs = np.log(history["generation"].to_numpy())
+        wanted = np.linspace(logs[0], logs[-1], MAX_STEPS)
+        shown = history.iloc[np.unique(np.searchsorted(logs, wanted))]
+    names = [name for name, _, _, _ in CRITERIA]
+    rows = shown[["generation", *names]].to_numpy()
+    points = [rows[0]] if len(rows) else []
+    for before, after in pairwise(rows):
+        points += [np.array([after[0], *before[1:]]), after]
+    header = ("Course", *(title for _, title, _, _ in CRITERIA))
+    pen.row(HISTORY_ROW, left, header, Style.HEADER)
+    for row, point in enumerate(points, HISTORY_ROW + 1):
+        for number, value in enumerate(point.tolist()):
+            if value == value:  # noqa: PLR0124 (no cell where the grasp has no fitness)
+                pen.write(row, left + number, value, Style.RATIO)
+    return Area(HISTORY, HISTORY_ROW + 1, left, max(1, len(points)), len(header))
+
+
+def _benchmark(pen: Pen, result: Result, left: int) -> Area:
+    """Write the benchmark's values at both ends of the generation axis."""
+    grasp = result.benchmark
+    values = (grasp.fos, *grasp.terms, grasp.divergence)
+    header = ("Benchmark", *(title for _, title, _, _ in CRITERIA))
+    pen.row(HISTORY_ROW, left, header, Style.HEADER)
+    for offset, generation in enumerate((1, max(10, result.state.generation)), 1):
+        pen.row(HISTORY_ROW + offset, left, (generation, *values), Style.RATIO)
+    return Area(HISTORY, HISTORY_ROW + 1, left, 2, len(header))
+
+
+def _column(area: Area, number: int) -> tuple[list[Any], list[Any]]:
+    """Return the generations and one column of an area, as a chart takes them."""
+    last = area.row + area.rows - 1
+    return (
+        [area.sheet, area.row, area.column, last, area.column],
+        [area.sheet, area.row, area.column + number, last, area.column + number],
+    )
+
+
+def _chart(
+    book: Any,  # noqa: ANN401 (untyped library)
+    title: str,
+    unit: str,
+    course: tuple[list[Any], list[Any]],
+    benchmark: tuple[list[Any], list[Any]],
+) -> Any:  # noqa: ANN401 (untyped library)
+    chart = book.add_chart({"type": "scatter", "subtype": "straight"})
+    lines = (
+        ("Fittest", course, {"color": BLUE, "width": 1.75}),
+        ("Benchmark", benchmark, {"color": GREY, "width": 1.5, "dash_type": "dash"}),
+    )
+    for name, (categories, values), line in lines:
+        chart.add_series({"name": name, "categories": categories, "values": values, "line": line})
+    chart.set_title({"name": f"{title} vs Generation Number", "name_font": {"size": 11}})
+    grid = {"visible": True, "line": {"color": "#D9D9D9"}}
+    chart.set_x_axis(
+        {
+            "name": "Generation",
+            "log_base": 10,
+            "min": 1,
+            "major_gridlines": grid,
+            "label_position": "low",
+        }
+    )
+    chart.set_y_axis({"name": unit, "major_gridlines": grid})
+    chart.set_legend({"position": "bottom"})
+    chart.set_size({"width": CHART_WIDTH, "height": CHART_HEIGHT})
+    return chart

@@ -1,0 +1,70 @@
+"""What the sheets with tables share: Excel tables, labels of genes and criteria, their looks."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from grasp_xl.chromosome import BLANK_GENE
+from grasp_xl.search.result import gene_columns
+from grasp_xl.space import OptionSpace
+from grasp_xl.workbook.layout import KINDS, Area
+from grasp_xl.workbook.pen import ROW_HEIGHT, Pen
+from grasp_xl.workbook.styles import Style
+
+DASH = "-"
+CRITERIA = (
+    ("fos", "FoS", "FoS", Style.RATIO),
+    ("cost", "Cost", "Cost ($)", Style.MONEY),
+    ("moment", "Residual Moment", "Residual Moment (N-mm)", Style.TORQUE),
+    ("deviation", "Deviation", "Deviation (mm)", Style.RATIO),
+    ("structure", "Structure", "Structure (mm)", Style.TORQUE),
+    ("divergence", "Divergence", "Divergence", Style.DIVERGENCE),
+)
+"""Column of a result's tables, title, label with unit, look."""
+
+
+def gene_labels(space: OptionSpace) -> list[str]:
+    """Return the headers of all gene columns: ``Suction``, ``S1``.., ``Magnets``, ``M1``.."""
+    names = {labels.kind: labels.row_label for labels in KINDS}
+    return [names.get(column, column) for column in gene_columns(space)]
+
+
+def gene_styles(space: OptionSpace) -> list[Style]:
+    """Return the looks of all gene columns."""
+    return [
+        style
+        for style in (Style.SUCTION_GENE, Style.MAGNETS_GENE)
+        for _ in range(1 + space.gene_slots)
+    ]
+
+
+def shown_gene(column: str, value: Any) -> int | None:  # noqa: ANN401 (a cell of a data frame)
+    """Return a gene as a cell shows it: blank where its kind has no footprints."""
+    return None if value == BLANK_GENE and column[-1].isdigit() else int(value)
+
+
+def shown_number(value: Any) -> float | str:  # noqa: ANN401 (a cell of a data frame)
+    """Return a number as a cell shows it: a dash where the grasp has no fitness."""
+    return DASH if math.isnan(value) else float(value)
+
+
+def add_table(pen: Pen, name: str, area: Area, labels: list[str]) -> None:
+    """Make an Excel table of an area, its first row the header."""
+    pen.sheet.add_table(
+        area.row,
+        area.column,
+        area.row + area.rows - 1,
+        area.column + area.columns - 1,
+        {
+            "name": name,
+            "style": "Table Style Light 1",
+            "columns": [
+                {"header": label, "header_format": pen.formats[Style.STACKED_HEADER]}
+                for label in labels
+            ],
+        },
+    )
+    pen.filled |= {(area.row, area.column + column) for column in range(area.columns)}
+    pen.sheet.repeat_rows(area.row)
+    pen.sheet.set_row(area.row, 2 * ROW_HEIGHT)  # headers of two lines
