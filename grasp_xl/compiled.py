@@ -24,7 +24,7 @@ def _cache_folder() -> str:
     digest = hashlib.sha256()
     for source in sorted(Path(__file__).parent.rglob("*.py")):
         text = source.read_bytes()
-        if b"@compiled" in text or source.name in CONSTANTS:
+        if b"@compiled" in text or b"@allocation_free" in text or source.name in CONSTANTS:
             digest.update(text)
     return str(Path(platformdirs.user_cache_dir("grasp_xl")) / digest.hexdigest()[:16])
 
@@ -38,13 +38,23 @@ def compiled(function: Callable[P, R]) -> Callable[P, R]:
     No fast-math: results are the same, bit for bit, on every machine.  The plain function stays
     reachable as ``.py_func``.
     """
+    return _compiled(function)
+
+
+def allocation_free(function: Callable[P, R]) -> Callable[P, R]:
+    """Compile a kernel that makes no array, without counting references: twice as fast."""
+    return _compiled(function, _nrt=False)
+
+
+def _compiled(function: Callable[P, R], **options: object) -> Callable[P, R]:
     settings: Any = numba.config
     usual = settings.CACHE_DIR
     settings.CACHE_DIR = CACHE_FOLDER
+    settled = {**options, "error_model": "numpy", "nogil": True}
     try:
-        kernel = numba.njit(cache=True, error_model="numpy")(function)
+        kernel = numba.njit(cache=True, **settled)(function)
     except RuntimeError:  # no folder that can be written: compile in every process
-        kernel = numba.njit(error_model="numpy")(function)
+        kernel = numba.njit(**settled)(function)
     finally:
         settings.CACHE_DIR = usual
     return cast("Callable[P, R]", kernel)

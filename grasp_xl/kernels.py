@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from grasp_xl.compiled import compiled
+from grasp_xl.compiled import allocation_free, compiled
 from grasp_xl.rules import SLACK, Rules, Terms
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
 
@@ -100,7 +100,7 @@ def boundary_distances(points: FloatArray, polygon: FloatArray) -> FloatArray:
     return distances
 
 
-@compiled
+@allocation_free
 def active_places(t: Tables, genes: IntArray, places: IntArray) -> int:
     """Write the places of the active genes into ``places`` and return how many there are."""
     n = 0
@@ -111,7 +111,7 @@ def active_places(t: Tables, genes: IntArray, places: IntArray) -> int:
     return n
 
 
-@compiled
+@allocation_free
 def lifting_force(t: Tables, genes: IntArray) -> float:
     """Twin of ``criteria.lifting_force`` (N), eq. 11."""
     force: float = 0.0
@@ -120,7 +120,7 @@ def lifting_force(t: Tables, genes: IntArray) -> float:
     return force
 
 
-@compiled
+@allocation_free
 def squared_distance(t: Tables, a: int, b: int) -> float:
     """Squared plan-view distance between two places (mm^2)."""
     p, q = t.footprints[a], t.footprints[b]
@@ -128,7 +128,7 @@ def squared_distance(t: Tables, a: int, b: int) -> float:
     return dx * dx + dy * dy
 
 
-@compiled
+@allocation_free
 def is_clear(t: Tables, places: IntArray, n: int) -> bool:
     """Tell whether the first n places keep the clearance (section 4.2.4.2)."""
     for i in range(1, n):
@@ -138,7 +138,7 @@ def is_clear(t: Tables, places: IntArray, n: int) -> bool:
     return True
 
 
-@compiled
+@allocation_free
 def total_cost(t: Tables, genes: IntArray) -> float:
     """Twin of ``criteria.cost`` ($), eq. 5."""
     cost = 0.0
@@ -147,7 +147,7 @@ def total_cost(t: Tables, genes: IntArray) -> float:
     return cost
 
 
-@compiled
+@allocation_free
 def residual_moment(t: Tables, genes: IntArray, places: IntArray) -> float:
     """Twin of eq. 2-4 (N-mm); ``places`` are the active ones, kind after kind."""
     x = y = z = force = 0.0
@@ -164,7 +164,7 @@ def residual_moment(t: Tables, genes: IntArray, places: IntArray) -> float:
     return np.sqrt(x * x + y * y + z * z) / force * t.weight
 
 
-@compiled
+@allocation_free
 def mean_deviation(t: Tables, places: IntArray, n: int) -> float:
     """Twin of ``criteria.deviation`` (mm), eq. 6."""
     total = 0.0
@@ -173,7 +173,7 @@ def mean_deviation(t: Tables, places: IntArray, n: int) -> float:
     return total / n
 
 
-@compiled
+@allocation_free
 def truss_length(t: Tables, places: IntArray, n: int, i: int, j: int) -> float:
     """Twin of ``criteria.truss_length`` (mm), eq. 7, with the main truss from i to j."""
     p, q = t.footprints[places[i]], t.footprints[places[j]]
@@ -189,7 +189,7 @@ def truss_length(t: Tables, places: IntArray, n: int, i: int, j: int) -> float:
     return t.density_ratio * length + doubled_areas / length
 
 
-@compiled
+@allocation_free
 def structure(t: Tables, places: IntArray, n: int) -> float:
     """Twin of ``criteria.structure`` (mm), eq. 7."""
     longest = 0.0
@@ -207,7 +207,7 @@ def structure(t: Tables, places: IntArray, n: int) -> float:
     return shortest
 
 
-@compiled
+@allocation_free
 def value_below(t: Tables, genes: IntArray, places: IntArray, n: int, bar: float) -> float:
     """Twin of ``Rules.value``: the number that the search minimises, infinity from ``bar`` on.
 
@@ -226,7 +226,7 @@ def value_below(t: Tables, genes: IntArray, places: IntArray, n: int, bar: float
     return total if total < bar else np.inf
 
 
-@compiled
+@allocation_free
 def fitness(t: Tables, genes: IntArray, places: IntArray) -> float:
     """Return the value of a chromosome, infinity where it fails FoS or clearance."""
     n = active_places(t, genes, places)

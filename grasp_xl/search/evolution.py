@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from grasp_xl.chromosome import UNSET_GENE
-from grasp_xl.compiled import compiled
+from grasp_xl.compiled import allocation_free, compiled
 from grasp_xl.kernels import Tables, active_places, fitness, is_clear, lifting_force, value_below
 from grasp_xl.search.mutation import TRIES_PER_MATRIX
 from grasp_xl.space import IntArray
@@ -45,19 +45,20 @@ class Outcome(NamedTuple):
     improved: bool
 
 
-@compiled
+@allocation_free
 def draw(rng: np.random.Generator, low: int, high: int) -> int:
     """Twin of ``mutation.draw``."""
     return low + int(rng.random() * (high - low + 1))
 
 
-@compiled
+@allocation_free
 def draw_chromosome(t: Tables, rng: np.random.Generator, genes: IntArray) -> None:
     """Twin of ``mutation.random_chromosome``, into ``genes``."""
     elements = 0
     while elements == 0:
         for kind in range(len(genes)):
-            genes[kind, :] = 0
+            for slot in range(genes.shape[1]):
+                genes[kind, slot] = 0
             if t.kinds[kind].total:
                 genes[kind, 0] = draw(rng, t.kinds[kind].count_min, t.kinds[kind].count_max)
             elements += genes[kind, 0]
@@ -73,7 +74,7 @@ def draw_chromosome(t: Tables, rng: np.random.Generator, genes: IntArray) -> Non
                             repeated = True
 
 
-@compiled
+@allocation_free
 def mutate(
     t: Tables,
     rng: np.random.Generator,
@@ -93,7 +94,7 @@ def mutate(
                     child[kind, slot] = draw(rng, UNSET_GENE, t.kinds[kind].total)
 
 
-@compiled
+@allocation_free
 def breed_clear(
     t: Tables,
     rng: np.random.Generator,
@@ -111,11 +112,19 @@ def breed_clear(
         n = active_places(t, child, places)
         if is_clear(t, places, n):
             return n
-    child[:] = parent
+    copy_into(parent, child)
     return 0
 
 
-@compiled
+@allocation_free
+def copy_into(source: IntArray, target: IntArray) -> None:
+    """Copy genes one by one; a slice assignment would allocate."""
+    for kind in range(len(source)):
+        for slot in range(source.shape[1]):
+            target[kind, slot] = source[kind, slot]
+
+
+@allocation_free
 def same(a: IntArray, b: IntArray) -> bool:
     """Tell whether two chromosomes have the same genes."""
     for kind in range(len(a)):
@@ -125,7 +134,7 @@ def same(a: IntArray, b: IntArray) -> bool:
     return True
 
 
-@compiled
+@allocation_free
 def draw_matrix(rng: np.random.Generator, one_in: float, matrix: IntArray) -> None:
     """Twin of ``mutation.mutation_matrix``, into ``matrix``."""
     for kind in range(len(matrix)):
@@ -133,7 +142,7 @@ def draw_matrix(rng: np.random.Generator, one_in: float, matrix: IntArray) -> No
             matrix[kind, slot] = rng.random() < 1.0 / one_in
 
 
-@compiled
+@allocation_free
 def breed_all(
     t: Tables,
     rng: np.random.Generator,
@@ -152,7 +161,7 @@ def breed_all(
         child = children[number]
         value = parent_value
         if elitism and number == 0:
-            child[:] = parent
+            copy_into(parent, child)
         else:
             n = breed_clear(t, rng, parent, matrix, child, places)
             if n and lifting_force(t, child) < t.force_min:
@@ -165,11 +174,11 @@ def breed_all(
     return fittest, fittest_value, judged
 
 
-@compiled
+@allocation_free
 def enter(room: Room, row: int, generation: int, genes: IntArray) -> int:
     """Write a row of a record and return the number of the next."""
     room.generation[row] = generation
-    room.genes[row] = genes
+    copy_into(genes, room.genes[row])
     return row + 1
 
 
@@ -221,16 +230,16 @@ def evolve(
         evaluations += judged
         if fittest >= 0:
             changed = changed or not same(parent, children[fittest])
-            parent[:] = children[fittest]
+            copy_into(children[fittest], parent)
             parent_value = value
         if changed:
             n_changes = enter(changes, n_changes, generation, parent)
         if parent_value < baseline and not same(parent, last_valid):
             n_designs = enter(designs, n_designs, generation, parent)
-            last_valid[:] = parent
+            copy_into(parent, last_valid)
         improved = parent_value < best_value
         if improved:
-            best[:] = parent
+            copy_into(parent, best)
     return Outcome(generation - done, evaluations, n_changes, n_designs, improved)
 
 
