@@ -1,11 +1,13 @@
 """The fitness criteria and constraints of the thesis, each once, readable, with its equation.
 
 Points are ``(n, 3)`` arrays of active footprint centres (mm), forces ``(n,)`` arrays (N).
-``kernels.py`` has the compiled twins; a test holds the two equal to 1e-12 relative.
+``kernels.py`` has the compiled twins; a test holds the two equal to 1e-12 relative.  Sums are plain
+ones, and no call goes to BLAS or libm but the square root, so that every machine gives the same bits.
 """
 
 from __future__ import annotations
 
+import math
 from itertools import combinations
 
 import numpy as np
@@ -14,9 +16,14 @@ from grasp_xl.rules import SLACK, MomentArm
 from grasp_xl.space import FloatArray, IntArray
 
 
+def length(vector: FloatArray) -> float:
+    """Return the Euclidean length of a short vector."""
+    return math.sqrt(sum(part * part for part in vector.tolist()))
+
+
 def lifting_force(counts: IntArray, forces_n: FloatArray) -> float:
     """Return F = n_suc F_suc + n_mag F_mag (N), eq. 11."""
-    return float(np.dot(counts, forces_n))
+    return float((counts * forces_n).sum())
 
 
 def factor_of_safety(force_n: float, weight_n: float) -> float:
@@ -26,12 +33,12 @@ def factor_of_safety(force_n: float, weight_n: float) -> float:
 
 def cost(counts: IntArray, prices: FloatArray) -> float:
     """Return the total cost of the gripper elements ($), eq. 5."""
-    return float(np.dot(counts, prices))
+    return float((counts * prices).sum())
 
 
 def centre_of_force(points: FloatArray, forces_n: FloatArray) -> FloatArray:
     """Return the force-weighted mean of the points, ``(3,)`` (mm), eq. 2."""
-    mean: FloatArray = forces_n @ points / forces_n.sum()
+    mean: FloatArray = (forces_n[:, None] * points).sum(axis=0) / forces_n.sum()
     return mean
 
 
@@ -41,7 +48,7 @@ def eccentricity(centre: FloatArray, centroid: FloatArray, arm: MomentArm) -> fl
     With the ``plan`` arm its height does not count: vertical forces make no moment over it.
     """
     offset = centre - centroid
-    return float(np.linalg.norm(offset[:2] if arm == "plan" else offset))
+    return length(offset[:2] if arm == "plan" else offset)
 
 
 def residual_moment(eccentricity_mm: float, weight_n: float) -> float:
@@ -63,7 +70,7 @@ def distance_to_boundary(point: FloatArray, polygon: FloatArray) -> float:
     edge = np.roll(start, -1, axis=0) - start
     along = ((point[:2] - start) * edge).sum(axis=1) / (edge**2).sum(axis=1)
     nearest = start + np.clip(along, 0.0, 1.0)[:, None] * edge
-    return float(np.linalg.norm(nearest - point[:2], axis=1).min())
+    return min(length(offset) for offset in nearest - point[:2])
 
 
 def deviation(points: FloatArray, ideal_polygon: FloatArray) -> float:
@@ -73,9 +80,7 @@ def deviation(points: FloatArray, ideal_polygon: FloatArray) -> float:
 
 def smallest_distance(points: FloatArray) -> float | None:
     """Return the smallest plan-view distance between two points (mm), None for one point."""
-    return min(
-        (float(np.linalg.norm((q - p)[:2])) for p, q in combinations(points, 2)), default=None
-    )
+    return min((length((q - p)[:2]) for p, q in combinations(points, 2)), default=None)
 
 
 def main_truss(points: FloatArray, density_ratio: float) -> tuple[int, int]:
@@ -85,11 +90,11 @@ def main_truss(points: FloatArray, density_ratio: float) -> tuple[int, int]:
     the value does not depend on the order of the genes.
     """
     lengths = {
-        pair: float(np.linalg.norm((points[pair[1]] - points[pair[0]])[:2]))
+        pair: length((points[pair[1]] - points[pair[0]])[:2])
         for pair in combinations(range(len(points)), 2)
     }
     longest = max(lengths.values())
-    candidates = [pair for pair, length in lengths.items() if length >= longest * (1 - SLACK)]
+    candidates = [pair for pair, far in lengths.items() if far >= longest * (1 - SLACK)]
     return min(candidates, key=lambda pair: truss_length(points, pair, density_ratio))
 
 
@@ -97,12 +102,12 @@ def truss_length(points: FloatArray, pair: tuple[int, int], density_ratio: float
     """Return R l_max plus all branches, with the main truss on a given pair (mm), eq. 7."""
     start = points[pair[0], :2]
     axis = points[pair[1], :2] - start
-    length = float(np.linalg.norm(axis))
-    if length == 0.0:
+    main = length(axis)
+    if main == 0.0:
         return 0.0
     others = np.delete(points[:, :2], pair, axis=0) - start
-    branches = np.abs(axis[0] * others[:, 1] - axis[1] * others[:, 0]) / length
-    return density_ratio * length + float(branches.sum())
+    branches = np.abs(axis[0] * others[:, 1] - axis[1] * others[:, 0]) / main
+    return density_ratio * main + float(branches.sum())
 
 
 def structure(points: FloatArray, density_ratio: float) -> float:

@@ -71,7 +71,7 @@ class Grasp:
         if self.main_truss is None:
             return 0.0
         start, end = self.points_mm[list(self.main_truss), :2]
-        return float(np.linalg.norm(end - start))
+        return criteria.length(end - start)
 
 
 def active_points(space: OptionSpace, chromosome: Chromosome) -> FloatArray:

@@ -651,7 +651,7 @@ def number_text(text: str) -> Raw:
 A_MASS = "a mass above 0 g"
 A_FORCE = "a force above 0 N"
 A_COORDINATE = "a coordinate (mm)"
-A_COUNT = "a whole number from 0 to 100"
+A_COUNT = "a whole number from 0 to 25"
 A_SCALE_FACTOR = "a scale factor above 0 and at most 1"
 A_WEIGHT = "a weight of 0 g or more, or nothing"
 NOTHING = "an empty cell"
@@ -724,7 +724,7 @@ wrong_cell("negative_weight", "B23", -110, "-110", A_WEIGHT)
 wrong_cell("min_above_max", "B11", 6, "a minimum of 6", "at most the maximum, 5")
 wrong_cell("negative_min", "B11", -1, "-1", A_COUNT)
 wrong_cell("fraction_for_max", "B20", 2.5, "the fraction 2.5", A_COUNT)
-wrong_cell("max_above_a_hundred", "B12", 101, "101", A_COUNT)
+wrong_cell("max_above_its_limit", "B12", 26, "26", A_COUNT)
 wrong_cell("zero_scale_factor", "L1", 0, "0", A_SCALE_FACTOR)
 wrong_cell("tiny_scale_factor", "L1", 1e-300, "1e-300", A_SCALE_FACTOR)
 wrong_cell("negative_scale_factor", "L1", -0.6, "-0.6", A_SCALE_FACTOR)
@@ -1043,7 +1043,7 @@ fine_cells("note_that_begins_with_equals", {"A30": "=HYPERLINK(1)", "P1": "+note
 fine_cells("formula_with_value", {"B5": Raw("><f>1000*8.86</f><v>8860</v>")})
 fine_cells("blank_weights", {"B15": None, "B23": None})
 fine_cells("free_cups", {"B14": 0})
-fine_cells("max_above_total", {"B12": 50})
+fine_cells("max_above_total", {"B12": 25})
 fine_cells("no_index", {"C2": None} | {f"C{row}": None for row in range(5, 11)})
 fine_cells("longer_index", {f"C{row}": row - 4 for row in range(5, 40)})
 fine_cells("note_below_a_list", {"D13": "checked by Ann", "G12": " "})

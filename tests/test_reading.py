@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -30,12 +31,15 @@ from bad_workbooks import (
     tiny_export,
     write_book,
 )
+from spaces import plate
 
 from grasp_xl.rules import Criterion
-from grasp_xl.space import ElementKind, OptionSpace
+from grasp_xl.space import ElementKind, OptionSpace, frozen
 from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book
+from grasp_xl.workbook.reading import open_source, read_option_space
+from grasp_xl.workbook.writing import export_workbook
 
 
 @pytest.fixture
@@ -439,3 +443,15 @@ def test_the_centroid_below_the_polygon_is_not_used(
     told = [(f"{SHEET}!M8", "7")] if value == 7 else []
     assert warnings_of(path, {"M8": value}) == told
     assert space_values(read_book(path).space) == space_values(tiny_space)
+
+
+def test_overlap_of_the_magnets_is_kept(tmp_path):
+    """The optional column of covered area fractions is read, and written back as it came."""
+    space = plate(cups=3, magnets=2)
+    cups, magnets = space.kinds
+    covered = replace(magnets, overlap=frozen([0.75, 1.0]))
+    path = tmp_path / "export.xlsx"
+    path.write_bytes(export_workbook(replace(space, kinds=(cups, covered))))
+    again = read_option_space(open_source(path))
+    assert again.kinds[0].overlap is None
+    assert again.kinds[1].overlap.tolist() == [0.75, 1.0]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from xlsxwriter.utility import xl_rowcol_to_cell
 
 from grasp_xl.space import OptionSpace
@@ -77,7 +79,8 @@ def _locations(pen: Pen, space: OptionSpace, *, live: bool) -> None:
         if kind.overlap is not None:
             pen.write(first - 1, layout.OVERLAP_COLUMN, layout.OVERLAP_LABEL, Style.HEADER)
             for row, fraction in enumerate(kind.overlap.tolist(), first):
-                pen.write(row, layout.OVERLAP_COLUMN, fraction, Style.RATIO)
+                known = None if math.isnan(fraction) else fraction
+                pen.write(row, layout.OVERLAP_COLUMN, known, Style.RATIO)
         if live and kind.total:
             area = Area(OPTION_SPACE, first, labels.column, kind.total, 3)
             pen.name_area(labels.locations_name, area)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -35,8 +36,8 @@ from grasp_xl.workbook.package import read_package
 MAX_FOOTPRINTS = 200_000
 """Footprints of one kind that are read."""
 
-MAX_COUNT = 100
-"""Largest # Max. of a kind."""
+MAX_COUNT = 25
+"""Largest # Max. of a kind; the helper cells of a live card grow with its square."""
 
 MAX_VERTICES = 10_000
 """Vertices of the polygon that are read."""
@@ -49,6 +50,7 @@ MIN_FATNESS = 1e-12
 SECTIONS = (layout.PART, *(labels.section for labels in layout.KINDS))
 
 A_COUNT = f"a whole number from 0 to {MAX_COUNT}"
+A_FRACTION = "a fraction from 0 to 1, or nothing"
 A_COORDINATE = "a coordinate (mm)"
 A_POLYGON = "three or more corners around an area, without crossing"
 CHOOSE_CORNERS = "correct the corners, or choose the polygon again in CAD"
@@ -214,6 +216,7 @@ def _kind(
         weight_g=weight,
         diameter_mm=diameter,
         model=model,
+        overlap=_overlap(source, labels, start, len(footprints)),
     )
 
 
@@ -222,6 +225,22 @@ def _count(source: Source, cell: Area | None) -> int | None:
         return None
     count = source.number(cell, A_COUNT, least=0, most=MAX_COUNT, whole=True)
     return None if count is None else int(count)
+
+
+def _overlap(
+    source: Source, labels: KindLabels, start: Area | None, length: int
+) -> FloatArray | None:
+    """Read the covered area fraction of each footprint, where the sheet has that column."""
+    header = source.grid(start.sheet).find(layout.OVERLAP_LABEL) if start else None
+    if header is None or start is None or labels.kind != layout.OVERLAP_KIND:
+        return None
+    fractions = []
+    for number in range(length):
+        cell = Area(start.sheet, start.row + number, header.column)
+        blank = source.blank(cell)
+        fraction = None if blank else source.number(cell, A_FRACTION, least=0, most=1)
+        fractions.append(math.nan if fraction is None else fraction)
+    return frozen(fractions)
 
 
 def _diameter(source: Source, sheet: str, field: Field) -> float | None:
