@@ -2,7 +2,7 @@
 
 Points are ``(n, 3)`` arrays of active footprint centres (mm), forces ``(n,)`` arrays (N).
 ``kernels.py`` has the compiled twins; a test holds the two equal to 1e-12 relative.  Sums are plain
-ones, and no call goes to BLAS or libm but the square root, so that every machine gives the same bits.
+ones, and no call goes to BLAS or libm but the square root: the same bits on every machine.
 """
 
 from __future__ import annotations

@@ -52,6 +52,16 @@ def draw(rng: np.random.Generator, low: int, high: int) -> int:
 
 
 @allocation_free
+def is_repeated(genes: IntArray, kind: int, slot: int) -> bool:
+    """Tell whether an active gene is the same as an earlier one of its kind."""
+    if slot <= genes[kind, 0]:
+        for earlier in range(1, slot):
+            if genes[kind, earlier] == genes[kind, slot]:
+                return True
+    return False
+
+
+@allocation_free
 def draw_chromosome(t: Tables, rng: np.random.Generator, genes: IntArray) -> None:
     """Twin of ``mutation.random_chromosome``, into ``genes``."""
     elements = 0
@@ -65,13 +75,9 @@ def draw_chromosome(t: Tables, rng: np.random.Generator, genes: IntArray) -> Non
     for kind in range(len(genes)):
         if t.kinds[kind].total:
             for slot in range(1, genes.shape[1]):
-                repeated = True
-                while repeated:
+                genes[kind, slot] = draw(rng, UNSET_GENE, t.kinds[kind].total)
+                while is_repeated(genes, kind, slot):
                     genes[kind, slot] = draw(rng, UNSET_GENE, t.kinds[kind].total)
-                    repeated = False
-                    for earlier in range(1, slot):
-                        if slot <= genes[kind, 0] and genes[kind, earlier] == genes[kind, slot]:
-                            repeated = True
 
 
 @allocation_free

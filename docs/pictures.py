@@ -1,0 +1,60 @@
+"""Make the pictures of the documentation from a sample's result, as LibreOffice shows it.
+
+Run ``python docs/pictures.py``; it needs LibreOffice (soffice), poppler (pdftoppm) and Pillow.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import tempfile
+from pathlib import Path
+
+from PIL import Image, ImageChops
+
+DOCS = Path(__file__).parent
+RESULT = DOCS.parent / "workbooks" / "bracket-result.xlsx"
+DPI = 400
+
+PARAMETER_WIDTH, CARD_WIDTH, CARDS = 34 + 12 + 2, 21 + 6 * 10 + 2, 6
+"""Widths on the sheet GA, in characters: the parameters, and each card with its gap."""
+
+ROWS, FIRST_CARD_ROW = 63, 20
+"""Rows of the sheet GA, and the first of the cards."""
+
+
+def rendered(folder: Path, title: str) -> Image.Image:
+    """Return the page that begins with a title, without its margins and footer."""
+    command = ["soffice", "--headless", "--convert-to", "pdf", "--outdir", str(folder), str(RESULT)]
+    subprocess.run(command, check=True, capture_output=True)
+    pdf = folder / f"{RESULT.stem}.pdf"
+    told = subprocess.run(["pdftotext", pdf, "-"], check=True, capture_output=True, text=True)
+    number = next(n for n, page in enumerate(told.stdout.split("\f"), 1) if page.startswith(title))
+    pages = ["-f", str(number), "-l", str(number), "-r", str(DPI), "-png", "-singlefile"]
+    subprocess.run(["pdftoppm", *pages, pdf, folder / "page"], check=True)
+    page = Image.open(folder / "page.png").convert("RGB")
+    page = page.crop((0, 0, page.width, int(page.height * 0.93)))
+    return trimmed(page)
+
+
+def trimmed(picture: Image.Image) -> Image.Image:
+    """Return a picture without its white frame."""
+    white = Image.new("RGB", picture.size, "white")
+    return picture.crop(ImageChops.difference(picture, white).getbbox())
+
+
+def main() -> None:
+    """Write both pictures beside this file."""
+    with tempfile.TemporaryDirectory() as folder:
+        ga = rendered(Path(folder), "GENETIC ALGORITHM")
+        unit = ga.width / (PARAMETER_WIDTH + CARDS * CARD_WIDTH - 2)
+        left, right = PARAMETER_WIDTH * unit, (PARAMETER_WIDTH + CARD_WIDTH - 2) * unit
+        top = ga.height * (FIRST_CARD_ROW - 0.5) / ROWS
+        card = trimmed(ga.crop((int(left) - 5, int(top), int(right) + 2, ga.height)))
+        card.save(DOCS / "card.png", optimize=True)
+        grasp = rendered(Path(folder), "GRASP")
+        grasp.thumbnail((1800, 1800))
+        grasp.save(DOCS / "grasp.png", optimize=True)
+
+
+if __name__ == "__main__":
+    main()
