@@ -2,8 +2,8 @@
 
 A *node* fixes the counts, and says in which two boxes of locations the ends of the main truss
 stand.  A *location* is a place with the footprint of each kind that it has.  A lower bound takes
-four facts together: the other elements stand within reach of both boxes; their distance to the truss
-is at least that to the strip between the boxes; the moment is a norm, so it is at least its part
+four facts together: the other elements stand within reach of both boxes; their distance to the
+truss is at least that to the strip between the boxes; the moment is a norm, so at least its part
 along any direction u; and a multiplier lam prices the kind of each element.
 """
 
@@ -594,7 +594,8 @@ def search_pair(
     least = (w.clearance * (1 - SLACK)) ** 2
     most = (length * (1 + 2 * SLACK)) ** 2
     if others == 0:
-        settle_kinds(loc, w, chosen, fixed, found, genes)
+        if keeps_caps(loc, w, chosen, length):
+            settle_kinds(loc, w, chosen, fixed, found, genes)
         return True
     depth = 0
     position[0] = -1
