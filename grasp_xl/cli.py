@@ -3,21 +3,262 @@
 from __future__ import annotations
 
 import json
+import math
+import os
 import sys
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
 from grasp_xl import __version__
-from grasp_xl.errors import GraspError, InfeasibleError, InputError, UsageError
+from grasp_xl.errors import GraspError, InfeasibleError, InputError, OutputError, UsageError
+from grasp_xl.rules import TERMS, Criterion, MomentArm
+from grasp_xl.rules import moment_arm as parse_arm
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from grasp_xl.commands import Active
     from grasp_xl.search.stop import StopRule
     from grasp_xl.task import Parameters, Task
+
+T = TypeVar("T")
+
+LEAST_ABOVE_0 = 1e-9
+MOST = 1e9
+MOST_CHILDREN = 50
+MOST_SEED = 2**53
+"""The bounds of the workbook's cells; a test holds them equal."""
+
+STARTS = ("user", "random")
+
+
+class CtrlCError(GraspError):
+    """Ctrl-C before there was anything to write."""
+
+    exit_code = 130
+
+
+# --- what an option may be ---
+
+
+def _refused(option: str, found: str, expected: str, hint: str = "") -> UsageError:
+    message = f"{option}: found {found!r}, expected {expected}."
+    return UsageError(message, where=option, hint=hint or f"Without {option} the default holds")
+
+
+def _read_number(text: str) -> float:
+    for kind in (int, float):  # a whole number keeps all its digits
+        with suppress(ValueError):
+            return kind(text)
+    return math.nan
+
+
+def _number(
+    option: str, expected: str, *, least: float = -MOST, most: float = MOST
+) -> Callable[[str], float]:
+    """Make a parser of numbers within bounds."""
+
+    def parse(text: str) -> float:
+        number = _read_number(text)
+        if least <= number <= most:
+            return number
+        raise _refused(option, text, expected)
+
+    return parse
+
+
+def _whole(option: str, least: int, most: float = MOST) -> Callable[[str], int]:
+    """Make a parser of whole numbers within bounds."""
+    expected = f"a whole number from {least} to {most:,.0f}"
+    number = _number(option, expected, least=least, most=most)
+
+    def parse(text: str) -> int:
+        value = number(text)
+        if value != int(value):
+            raise _refused(option, text, expected)
+        return int(value)
+
+    return parse
+
+
+def _indices(option: str) -> Callable[[str], tuple[int, ...]]:
+    """Make a parser of indices; an empty text names none."""
+
+    def parse(text: str) -> tuple[int, ...]:
+        try:
+            return tuple(int(word) for word in text.split(",")) if text.strip() else ()
+        except ValueError:
+            hint = f"For example {option} 87,64,140"
+            raise _refused(option, text, "whole numbers separated by commas", hint) from None
+
+    return parse
+
+
+def _goals(text: str) -> tuple[float, ...]:
+    expected = "four numbers above 0 separated by commas"
+    goal = _number("--goals", expected, least=LEAST_ABOVE_0)
+    words = text.split(",")
+    if len(words) != len(TERMS):
+        hint = f"Give {', '.join(TERMS)}, for example --goals 105,7933,24.5,1130"
+        raise _refused("--goals", text, expected, hint)
+    return tuple(goal(word) for word in words)
+
+
+def _word(option: str, parse: Callable[[str], T]) -> Callable[[str], T]:
+    """Name the option where a word is refused."""
+
+    def parse_word(text: str) -> T:
+        try:
+            return parse(text)
+        except UsageError as error:
+            raise UsageError(f"{option}: {error.message}", where=option, hint=error.hint) from None
+
+    return parse_word
+
+
+def _start(text: str) -> str:
+    if text in STARTS:
+        return text
+    raise _refused("--start", text, " or ".join(STARTS))
+
+
+def _above_0(option: str) -> Callable[[str], float]:
+    return _number(option, f"a number above 0, to {MOST:g}", least=LEAST_ABOVE_0)
+
+
+def _option(name: str, parser: Callable[[str], Any], metavar: str, told: str) -> Any:  # noqa: ANN401
+    return typer.Option(name, parser=parser, metavar=metavar, help=told)
+
+
+File = Annotated[
+    Path, typer.Argument(help="Workbook: an exported option-space sheet, or a full workbook.")
+]
+Book = Annotated[Path, typer.Option("-o", "--output", help="Workbook to write.")]
+MaybeBook = Annotated[
+    Path | None,
+    typer.Option("-o", "--output", help="Workbook to write (default NAME-result.xlsx)."),
+]
+Cups = Annotated[
+    Sequence[int] | None,
+    _option("--cups", _indices("--cups"), "I,J,..", "Suction cup indices, from 1: 87,64,140."),
+]
+Magnets = Annotated[
+    Sequence[int] | None,
+    _option("--magnets", _indices("--magnets"), "I,J,..", "Magnet indices, from 1: 3,8."),
+]
+GoalList = Annotated[
+    Sequence[float] | None,
+    _option("--goals", _goals, "C,M,D,S", "Cost, moment, deviation, structure in $, N-mm, mm, mm."),
+]
+Fos = Annotated[
+    float | None,
+    _option("--fos", _above_0("--fos"), "NUMBER", "Least factor of safety (default 3)."),
+]
+Clearance = Annotated[
+    float | None,
+    _option(
+        "--clearance",
+        _above_0("--clearance"),
+        "MM",
+        "Least distance of two elements (default: the largest diameter, else 46).",
+    ),
+]
+Density = Annotated[
+    float | None,
+    _option(
+        "--density-ratio",
+        _number("--density-ratio", f"a number from 0 to {MOST:g}", least=0),
+        "NUMBER",
+        "Main truss over branch density (default 2.5).",
+    ),
+]
+CriterionName = Annotated[
+    Criterion | None,
+    _option(
+        "--criterion",
+        _word("--criterion", Criterion.parse),
+        "WORD",
+        "divergence, cost, moment, deviation, structure, or some joined by + (default divergence).",
+    ),
+]
+Arm = Annotated[
+    MomentArm | None,
+    _option(
+        "--moment-arm",
+        _word("--moment-arm", parse_arm),
+        "3d|plan",
+        "Moment in space or in plan (default 3d).",
+    ),
+]
+Seed = Annotated[
+    int | None,
+    _option(
+        "--seed", _whole("--seed", 0, MOST_SEED), "N", "Seed of the random stream (default 1)."
+    ),
+]
+GenerationCount = Annotated[
+    int | None,
+    _option("--generations", _whole("--generations", 0), "N", "Generations (default 50000)."),
+]
+Children = Annotated[
+    int | None,
+    _option(
+        "--children", _whole("--children", 2, MOST_CHILDREN), "N", "Children each (default 5)."
+    ),
+]
+OneIn = Annotated[
+    float | None,
+    _option(
+        "--one-in",
+        _number("--one-in", f"a number from 1 to {MOST:g}", least=1),
+        "N",
+        "n of the 1-in-n mutation probability (default 4).",
+    ),
+]
+NoElitism = Annotated[bool, typer.Option("--no-elitism", help="Mutate child 1 too.")]
+Start = Annotated[
+    str | None,
+    _option("--start", _start, "user|random", "The initial chromosome (default user)."),
+]
+StallCount = Annotated[
+    int | None,
+    _option("--stall", _whole("--stall", 1), "N", "Stop after so many generations without gain."),
+]
+TargetValue = Annotated[
+    float | None,
+    _option(
+        "--target",
+        _number("--target", f"a number of at most {MOST:g}"),
+        "VALUE",
+        "Stop when the best value is at or below this.",
+    ),
+]
+Seconds = Annotated[
+    float | None,
+    _option(
+        "--time-limit",
+        _number("--time-limit", f"a number from 0 to {MOST:g}", least=0),
+        "SECONDS",
+        "Stop after so many seconds of search.",
+    ),
+]
+GoOn = Annotated[
+    bool, typer.Option("--continue", help="Go on from the run that the workbook holds.")
+]
+History = Annotated[
+    Path | None,
+    typer.Option("--history", help="Write every change of the fittest to this CSV file."),
+]
+InPlace = Annotated[bool, typer.Option("--in-place", help="Replace the input workbook.")]
+Force = Annotated[
+    bool, typer.Option("--force", help="Overwrite what was edited; lose what cannot be kept.")
+]
+AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on standard output.")]
+Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors.")]
+
+
+# --- from words to an exit code ---
 
 app = typer.Typer(
     name="grasp-xl",
@@ -27,68 +268,24 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-File = Annotated[
-    Path, typer.Argument(help="Workbook: an exported option-space sheet, or a full workbook.")
-]
-Book = Annotated[Path, typer.Option("-o", "--output", help="Workbook to write.")]
-MaybeBook = Annotated[
-    Path | None,
-    typer.Option("-o", "--output", help="Workbook to write [default: NAME-result.xlsx]."),
-]
-Cups = Annotated[
-    str | None, typer.Option(help="Suction cup indices, from 1: 87,64,140. The user-defined grasp.")
-]
-Magnets = Annotated[str | None, typer.Option(help="Magnet indices, from 1: 3,8.")]
-GoalList = Annotated[
-    str | None,
-    typer.Option("--goals", help="COST,MOMENT,DEVIATION,STRUCTURE in $, N-mm, mm, mm."),
-]
-Fos = Annotated[float | None, typer.Option(help="Least factor of safety [default: 3].")]
-Clearance = Annotated[
-    float | None,
-    typer.Option(help="Least distance of two elements, mm [default: largest diameter, else 46]."),
-]
-Density = Annotated[
-    float | None, typer.Option(help="Main truss over branch density [default: 2.5].")
-]
-CriterionName = Annotated[
-    str | None,
-    typer.Option(
-        "--criterion",
-        help="divergence, cost, moment, deviation, structure, or some joined by + "
-        "[default: divergence].",
-    ),
-]
-Arm = Annotated[str | None, typer.Option(help="3d or plan [default: 3d].")]
-Seed = Annotated[
-    int | None, typer.Option(min=0, help="Seed of the run's random stream [default: 1].")
-]
-AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on standard output.")]
-Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors.")]
-Force = Annotated[bool, typer.Option("--force", help="Overwrite what grasp_xl did not write.")]
-
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code; every known error becomes one sentence."""
     words = list(sys.argv[1:] if arguments is None else arguments)
-    as_json = "--json" in words
-    if "--debug" in words:
-        words.remove("--debug")
-        return _run(words)
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
     try:
-        return _run(words)
-    except GraspError as error:
-        _tell(error, as_json=as_json)
-        return error.exit_code
-    except typer.TyperException as error:
-        _tell(UsageError(error.format_message(), hint="See --help"), as_json=as_json)
-        return error.exit_code
-    except KeyboardInterrupt:
-        _tell(GraspError("Interrupted; nothing was written."), as_json=as_json)
-        return 130
+        return _run([word for word in words if word != "--debug"])
     except BrokenPipeError:
-        sys.stderr.close()
+        _forget_output()
         return 0
+    except (GraspError, typer.TyperException, OSError, KeyboardInterrupt) as error:
+        if "--debug" in words:
+            raise
+        known = _known(error)
+        _tell(known, as_json="--json" in words)
+        return known.exit_code
 
 
 def entry() -> None:
@@ -97,8 +294,35 @@ def entry() -> None:
 
 
 def _run(words: list[str]) -> int:
-    code = app(words, prog_name="grasp-xl", standalone_mode=False)
-    return code if isinstance(code, int) else 0
+    command = typer.main.get_command(app)
+    try:
+        with command.make_context("grasp-xl", words) as context:
+            command.invoke(context)
+    except typer.Exit as done:
+        return done.exit_code
+    return 0
+
+
+def _known(error: BaseException) -> GraspError:
+    """Return what can be told of an error in a sentence."""
+    if isinstance(error, GraspError):
+        return error
+    if isinstance(error, typer.TyperException):
+        context, parameter = getattr(error, "ctx", None), getattr(error, "param", None)
+        where = getattr(error, "option_name", None) or (parameter.opts[-1] if parameter else "")
+        program = context.command_path if context else "grasp-xl"
+        return UsageError(error.format_message(), where=where, hint=f"See {program} --help")
+    if isinstance(error, OSError):
+        if error.filename is None:  # standard output
+            _forget_output()
+        name = str(error.filename or "standard output")
+        return OutputError(f"{name}: {error.strerror or error}.", where=name)
+    return CtrlCError("Interrupted; nothing was written.")
+
+
+def _forget_output() -> None:
+    """Leave nothing for Python to write when it ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _tell(error: GraspError, *, as_json: bool) -> None:
@@ -113,14 +337,17 @@ def _tell(error: GraspError, *, as_json: bool) -> None:
     if isinstance(error, InputError):
         for problem in error.problems:
             console.print(str(problem), style="red", markup=False)
-        return
-    console.print(error.message, style="red", markup=False)
-    if error.hint:
-        console.print(f"{error.hint}.", markup=False)
+    elif error.message:
+        console.print(error.message, style="red", markup=False)
+        if error.hint:
+            console.print(f"{error.hint}.", markup=False)
 
 
 def _print_json(told: dict[str, Any]) -> None:
-    print(json.dumps(told, indent=2, allow_nan=False))  # noqa: T201 (standard output is the product)
+    print(json.dumps(told, indent=2, allow_nan=False), flush=True)  # noqa: T201 (the product)
+
+
+# --- commands ---
 
 
 @app.callback(invoke_without_command=True)
@@ -136,9 +363,13 @@ def _about(
 @app.command()
 def check(
     file: File,
+    goals: GoalList = None,
     fos: Fos = None,
     clearance: Clearance = None,
+    density_ratio: Density = None,
+    criterion: CriterionName = None,
     moment_arm: Arm = None,
+    seed: Seed = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
@@ -148,7 +379,8 @@ def check(
     """
     from grasp_xl import commands, reporting, show
 
-    options = _parameters(fos=fos, clearance=clearance, moment_arm=moment_arm)
+    options = _parameters(goals, fos, clearance, density_ratio, criterion, moment_arm, seed)
+    show.compile_notice(quiet=quiet)
     try:
         checked = commands.check(file, options)
     except (InputError, InfeasibleError) as error:
@@ -156,6 +388,8 @@ def check(
             raise
         _print_json(reporting.failed_check_json(error))
         raise typer.Exit(error.exit_code) from error
+    if not quiet:
+        show.warnings(checked.warnings)
     if as_json:
         _print_json(reporting.check_json(checked))
     elif not quiet:
@@ -187,21 +421,15 @@ def new(
     """
     from grasp_xl import commands, reporting, show
 
-    options = _parameters(
-        goals=goals,
-        fos=fos,
-        clearance=clearance,
-        density_ratio=density_ratio,
-        criterion=criterion,
-        moment_arm=moment_arm,
-        seed=seed,
-    )
+    options = _parameters(goals, fos, clearance, density_ratio, criterion, moment_arm, seed)
     show.compile_notice(quiet=quiet)
-    task = commands.new(file, options, commands.Output(output, force=force), _active(cups, magnets))
+    place = commands.Output(output, force=force)
+    task = commands.new(file, options, place, (cups, magnets))
+    if not quiet:
+        show.warnings(task.warnings)
     if as_json:
         _print_json(reporting.new_json(task, str(output)))
     elif not quiet:
-        show.warnings(task.warnings)
         show.line(f"Wrote {output}.")
 
 
@@ -216,6 +444,7 @@ def evaluate(
     density_ratio: Density = None,
     criterion: CriterionName = None,
     moment_arm: Arm = None,
+    seed: Seed = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
@@ -225,20 +454,14 @@ def evaluate(
     """
     from grasp_xl import commands, reporting, show
 
-    options = _parameters(
-        goals=goals,
-        fos=fos,
-        clearance=clearance,
-        density_ratio=density_ratio,
-        criterion=criterion,
-        moment_arm=moment_arm,
-    )
+    options = _parameters(goals, fos, clearance, density_ratio, criterion, moment_arm, seed)
     show.compile_notice(quiet=quiet)
-    task, grasp = commands.evaluate_grasp(file, options, _active(cups, magnets))
+    task, grasp = commands.evaluate_grasp(file, options, (cups, magnets))
+    if not quiet:
+        show.warnings(task.warnings)
     if as_json:
         _print_json(reporting.grasp_json(grasp, task.rules))
     elif not quiet:
-        show.warnings(task.warnings)
         show.grasps([("Grasp", grasp), ("Benchmark", task.benchmark)], task.rules)
 
 
@@ -246,19 +469,11 @@ def evaluate(
 def run(
     file: File,
     output: MaybeBook = None,
-    generations: Annotated[
-        int | None, typer.Option(min=0, help="Generations [default: 50000].")
-    ] = None,
-    children: Annotated[
-        int | None, typer.Option(min=2, max=50, help="Children a generation [default: 5].")
-    ] = None,
-    one_in: Annotated[
-        float | None, typer.Option(min=1, help="n of the 1-in-n mutation probability [default: 4].")
-    ] = None,
-    no_elitism: Annotated[bool, typer.Option("--no-elitism", help="Mutate child 1 too.")] = False,
-    start: Annotated[
-        str | None, typer.Option(help="user or random: the initial chromosome [default: user].")
-    ] = None,
+    generations: GenerationCount = None,
+    children: Children = None,
+    one_in: OneIn = None,
+    no_elitism: NoElitism = False,
+    start: Start = None,
     cups: Cups = None,
     magnets: Magnets = None,
     goals: GoalList = None,
@@ -268,24 +483,12 @@ def run(
     criterion: CriterionName = None,
     moment_arm: Arm = None,
     seed: Seed = None,
-    stall: Annotated[
-        int | None, typer.Option(min=1, help="Stop after so many generations without a better one.")
-    ] = None,
-    target: Annotated[
-        float | None, typer.Option(help="Stop when the best value is at or below this.")
-    ] = None,
-    time_limit: Annotated[
-        float | None, typer.Option(min=0, help="Stop after so many seconds.")
-    ] = None,
-    go_on: Annotated[
-        bool, typer.Option("--continue", help="Go on from the run that the workbook holds.")
-    ] = False,
-    history: Annotated[
-        Path | None, typer.Option(help="Write every change of the fittest to this CSV file.")
-    ] = None,
-    in_place: Annotated[
-        bool, typer.Option("--in-place", help="Replace the input workbook.")
-    ] = False,
+    stall: StallCount = None,
+    target: TargetValue = None,
+    time_limit: Seconds = None,
+    go_on: GoOn = False,
+    history: History = None,
+    in_place: InPlace = False,
     force: Force = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
@@ -297,59 +500,75 @@ def run(
     from grasp_xl import commands, reporting, show
     from grasp_xl.search.stop import stop_on_ctrl_c
 
+    if in_place and output:
+        raise UsageError("Both --in-place and -o were given.", where="-o", hint="Give one of them")
+    path = file if in_place else output or file.with_name(f"{file.stem}-result.xlsx")
     options = _parameters(
-        goals=goals,
-        fos=fos,
-        clearance=clearance,
-        density_ratio=density_ratio,
-        criterion=criterion,
-        moment_arm=moment_arm,
-        seed=seed,
+        goals,
+        fos,
+        clearance,
+        density_ratio,
+        criterion,
+        moment_arm,
+        seed,
         generations=generations,
         children=children,
         one_in=one_in,
         elitism=False if no_elitism else None,
-        user_start=_user_start(start),
+        user_start=None if start is None else start == "user",
     )
-    place = _run_output(file, output, in_place=in_place, force=force)
     show.compile_notice(quiet=quiet)
-    with stop_on_ctrl_c() as interrupt:
+    with stop_on_ctrl_c() as interrupt, show.progress(quiet=quiet) as bar:
 
         def stop(task: Task) -> list[StopRule]:
-            limits = _stop_rules(task, stall=stall, target=target, time_limit=time_limit)
-            return [interrupt, *limits]
+            bar.begin(task.generations, time_limit)
+            return [interrupt, *_stop_rules(task, stall, target, time_limit)]
 
-        with show.progress(quiet=quiet or as_json) as report:
-            task, result, seconds = commands.run(
-                file,
-                options,
-                place,
-                grasp=_active(cups, magnets),
-                stop=stop,
-                go_on=go_on,
-                on_progress=report,
-            )
-    if history:
-        commands.write_history(result, history)
+        task, result, seconds = commands.run(
+            file,
+            options,
+            commands.Output(path, in_place, force, history),
+            grasp=(cups, magnets),
+            stop=stop,
+            go_on=go_on,
+            on_progress=bar,
+        )
+    if not quiet:
+        show.warnings(task.warnings)
     if as_json:
-        _print_json(reporting.run_json(result, seconds, str(place.path)))
+        _print_json(reporting.run_json(result, seconds, str(path)))
     elif not quiet:
-        show.run(task, result, seconds, place.path)
+        show.run(task, result, seconds, path)
     if result.stop_reason == "interrupted":
         raise typer.Exit(130)
 
 
-def _run_output(file: Path, output: Path | None, *, in_place: bool, force: bool) -> Any:  # noqa: ANN401
-    from grasp_xl.commands import Output
+def _parameters(
+    goals: Sequence[float] | None,
+    fos: float | None,
+    clearance: float | None,
+    density_ratio: float | None,
+    criterion: Criterion | None,
+    moment_arm: MomentArm | None,
+    seed: int | None,
+    **of_run: Any,  # noqa: ANN401 (other fields of Parameters)
+) -> Parameters:
+    from grasp_xl.task import NO_GOALS, Parameters
 
-    if in_place and output:
-        raise UsageError("Both --in-place and -o were given.", where="-o", hint="Give one of them")
-    path = file if in_place else output or file.with_name(f"{file.stem}-result.xlsx")
-    return Output(path, in_place=in_place, force=force)
+    return Parameters(
+        goals=tuple(goals) if goals else NO_GOALS,
+        fos=fos,
+        clearance_mm=clearance,
+        density_ratio=density_ratio,
+        criterion=criterion,
+        moment_arm=moment_arm,
+        seed=seed,
+        **of_run,
+    )
 
 
 def _stop_rules(
-    task: Task, *, stall: int | None, target: float | None, time_limit: float | None
+    task: Task, stall: int | None, target: float | None, time_limit: float | None
 ) -> list[StopRule]:
     from grasp_xl.search.stop import Generations, Stall, Target, TimeLimit
 
@@ -361,71 +580,3 @@ def _stop_rules(
     if time_limit is not None:
         rules.append(TimeLimit(time_limit))
     return [*rules, Generations(task.generations)]
-
-
-def _user_start(word: str | None) -> bool | None:
-    if word in (None, "user", "random"):
-        return None if word is None else word == "user"
-    raise UsageError(
-        f"--start: found {word!r}, expected user or random.", where="--start", hint="Use user"
-    )
-
-
-def _numbers(option: str, text: str | None, kind: type[Any], count: int | None = None) -> Any:  # noqa: ANN401
-    if text is None:
-        return None
-    try:
-        numbers = tuple(kind(word) for word in text.split(",") if word.strip())
-    except ValueError:
-        numbers = ()
-    if (not numbers and text.strip()) or (count is not None and len(numbers) != count):
-        what = "whole numbers" if kind is int else f"{count} numbers"
-        raise UsageError(
-            f"{option}: found {text!r}, expected {what} separated by commas.",
-            where=option,
-            hint=f"For example {option} " + ("87,64,140" if kind is int else "105,7933,24.5,1130"),
-        )
-    return numbers
-
-
-def _active(cups: str | None, magnets: str | None) -> Active:
-    return (_numbers("--cups", cups, int), _numbers("--magnets", magnets, int))
-
-
-def _above_zero(option: str, value: float | None, *, zero_too: bool = False) -> float | None:
-    import math
-
-    if value is None or (math.isfinite(value) and (value > 0 or (zero_too and value == 0))):
-        return value
-    least = "a number of 0 or more" if zero_too else "a number above 0"
-    raise UsageError(
-        f"{option}: found {value:g}, expected {least}.", where=option, hint="See --help"
-    )
-
-
-def _parameters(
-    *,
-    goals: str | None = None,
-    fos: float | None = None,
-    clearance: float | None = None,
-    density_ratio: float | None = None,
-    criterion: str | None = None,
-    moment_arm: str | None = None,
-    **others: Any,  # noqa: ANN401 (fields of Parameters that need no check)
-) -> Parameters:
-    from grasp_xl.rules import Criterion
-    from grasp_xl.rules import moment_arm as parse_arm
-    from grasp_xl.task import NO_GOALS, Parameters
-
-    numbers = _numbers("--goals", goals, float, 4)
-    for number in numbers or ():
-        _above_zero("--goals", number)
-    return Parameters(
-        goals=numbers or NO_GOALS,
-        fos=_above_zero("--fos", fos),
-        clearance_mm=_above_zero("--clearance", clearance),
-        density_ratio=_above_zero("--density-ratio", density_ratio, zero_too=True),
-        criterion=Criterion.parse(criterion) if criterion else None,
-        moment_arm=parse_arm(moment_arm) if moment_arm else None,
-        **others,
-    )

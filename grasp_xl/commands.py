@@ -2,29 +2,43 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 
+import numpy as np
+
 from grasp_xl.chromosome import Chromosome, from_active, index_faults
 from grasp_xl.errors import InputError, Problem, UsageError
 from grasp_xl.grasp import Grasp, evaluate
-from grasp_xl.rules import Requirements, Terms
+from grasp_xl.rules import Terms
 from grasp_xl.search.feasibility import any_feasible, max_fos
 from grasp_xl.search.floors import floors, search_space
 from grasp_xl.search.genetic import OnProgress, search
-from grasp_xl.search.result import Result
+from grasp_xl.search.mutation import random_chromosome
+from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import Generations, StopRule
 from grasp_xl.space import OptionSpace
 from grasp_xl.task import Parameters, Task, settle
 from grasp_xl.workbook import layout
-from grasp_xl.workbook.book import Book, read_book
+from grasp_xl.workbook.book import Book, read_book, read_previous
 from grasp_xl.workbook.carrying import carried, is_usable
+from grasp_xl.workbook.cells import Source
+from grasp_xl.workbook.package import Package
+from grasp_xl.workbook.reading_run import SavedRun, refuse_other_inputs
 from grasp_xl.workbook.run_log import Origin
-from grasp_xl.workbook.saving import check_target, refuse_losses, save
-from grasp_xl.workbook.writing import full_workbook
+from grasp_xl.workbook.saving import (
+    check_place,
+    check_target,
+    filled_cells,
+    refuse_edited,
+    refuse_losses,
+    save,
+)
+from grasp_xl.workbook.writing import Filled, export_workbook, full_workbook
 
 Active = Sequence[Sequence[int] | None]
 """Indices of a grasp given by options, a list a kind; None where an option was not given."""
@@ -32,11 +46,24 @@ Active = Sequence[Sequence[int] | None]
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """Where a workbook goes, and what may be overwritten for it."""
+    """Where results go, and what may be overwritten for them.
+
+    Parameters
+    ----------
+    path : Path
+        Workbook.
+    in_place : bool
+        Whether it is the input.
+    force : bool
+        Overwrite what was edited, lose what cannot be carried over.
+    history : Path, optional
+        CSV file with every change of the fittest.
+    """
 
     path: Path
     in_place: bool = False
     force: bool = False
+    history: Path | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -63,6 +90,18 @@ def prepare(book: Book, options: Parameters, grasp: Active = (None, None)) -> Ta
     given = given_grasp(book.space, grasp)
     task = settle(book.space, options.over(book.parameters), given or book.user_chromosome)
     return replace(task, warnings=(*book.warnings, *task.warnings))
+
+
+def refuse_infeasible(task: Task) -> None:
+    """Refuse a task that no grasp can fulfil, before any search.
+
+    Raises
+    ------
+    InfeasibleError
+        If no grasp meets FoS and clearance.
+    """
+    if not task.benchmark.feasible:
+        any_feasible(task.space, task.rules.requirements)
 
 
 def given_grasp(space: OptionSpace, grasp: Active) -> Chromosome | None:
@@ -97,18 +136,10 @@ def check(path: Path, options: Parameters) -> Checked:
     InfeasibleError
         If no grasp meets FoS and clearance.
     """
-    book = read_book(path)
-    space = book.space
-    known = options.over(book.parameters)
-    need = Requirements()
-    need = Requirements(
-        fos=known.fos or need.fos,
-        clearance_mm=known.clearance_mm or space.largest_diameter_mm or need.clearance_mm,
-        density_ratio=need.density_ratio if known.density_ratio is None else known.density_ratio,
-        moment_arm=known.moment_arm or need.moment_arm,
-    )
-    any_feasible(space, need)
-    return Checked(space, book.warnings, search_space(space), max_fos(space), floors(space, need))
+    task = prepare(read_book(path), options)
+    refuse_infeasible(task)
+    space, need = task.space, task.rules.requirements
+    return Checked(space, task.warnings, search_space(space), max_fos(space), floors(space, need))
 
 
 def evaluate_grasp(path: Path, options: Parameters, grasp: Active) -> tuple[Task, Grasp]:
@@ -119,38 +150,44 @@ def evaluate_grasp(path: Path, options: Parameters, grasp: Active) -> tuple[Task
     return task, evaluate(task.space, task.rules, given) if given else task.benchmark
 
 
+# --- new ---
+
+
 def new(path: Path, options: Parameters, output: Output, grasp: Active = (None, None)) -> Task:
     """Make the full workbook from an exported sheet, ready for a designer.
 
-    Where the output is a workbook already, its parameters and typed chromosomes stay, and every
-    index that is stale now is among the task's warnings.
+    Where the output is a workbook already, its parameters and typed chromosomes stay, and all that
+    is stale in them now is among the task's warnings.
     """
-    began = datetime.now()  # noqa: DTZ005 (a workbook shows local time)
-    previous = _previous(output.path, path)
-    check_target(output.path, path, in_place=previous is not None, force=output.force)
+    began = _now()
+    check_target(output.path, path, in_place=False, force=output.force)
     book = read_book(path)
+    previous = _previous(output)
     stale: list[Problem] = []
     if previous:
         book, stale = _taken_over(book, previous)
+    else:
+        refuse_edited(output.path, force=output.force)
     usable = book.user_chromosome and is_usable(book.user_chromosome, book.space)
     task = prepare(book if usable else replace(book, user_chromosome=None), options, grasp)
     task = replace(task, warnings=(*task.warnings, *stale))
-    result = search(
-        task.space, task.rules, task.settings, task.benchmark.chromosome, [Generations(0)]
-    )
-    _write(task, result, book, output, began, previous=previous)
+    if previous:
+        _refuse_losses(output, previous)
+    save(_full_workbook(task, _not_begun(task), book, began)[0], output.path)
     return task
 
 
-def _previous(output: Path, path: Path) -> Book | None:
-    """Return the workbook that stands where the new one goes, if it is one with parameters."""
-    if not output.exists() or output.samefile(path):
-        return None
+def _previous(output: Output) -> Book | None:
+    """Return the workbook that stands where the new one goes, if it is a full one."""
     try:
-        previous = read_book(output)
-    except InputError:  # not one of ours: check_target() then asks for --force
-        return None
-    return previous if previous.parameters != Parameters() else None
+        return read_previous(output.path)
+    except InputError as error:
+        if output.force:
+            return None
+        name = output.path.name
+        hint = "mend it, name another file with -o, or add --force to replace this one"
+        problems = [replace(p, where=f"{name}, {p.where}", hint=hint) for p in error.problems]
+        raise InputError(problems) from error
 
 
 def _taken_over(book: Book, previous: Book) -> tuple[Book, list[Problem]]:
@@ -161,19 +198,26 @@ def _taken_over(book: Book, previous: Book) -> tuple[Book, list[Problem]]:
         (previous.user_chromosome, layout.USER_BLOCK),
         (previous.what_if, layout.WHAT_IF),
     ):
-        if chromosome is None:
-            typed.append(None)
-            continue
-        genes, faults = carried(chromosome, previous.space, book.space, block.label)
+        genes = None
+        if chromosome:
+            genes, faults = carried(chromosome, previous.space, book.space, block.label)
+            stale += faults
         typed.append(genes)
-        stale += faults
     user, what_if = typed
     if what_if and not is_usable(what_if, book.space):
         what_if = None
-    return (
-        replace(book, parameters=previous.parameters, user_chromosome=user, what_if=what_if),
-        stale,
-    )
+    taken = replace(book, parameters=previous.parameters, user_chromosome=user, what_if=what_if)
+    return taken, stale
+
+
+def _not_begun(task: Task, state: State | None = None) -> Result:
+    """Return the result of no generation at all, or of none after a state."""
+    stop = [Generations(0)]
+    benchmark = task.benchmark.chromosome
+    return search(task.space, task.rules, task.settings, benchmark, stop, state=state)
+
+
+# --- run ---
 
 
 def run(
@@ -204,65 +248,88 @@ def run(
     Task, Result, float
         And the seconds that all took.
     """
-    clock, began = time.perf_counter(), datetime.now()  # noqa: DTZ005 (local time is shown)
+    clock, began = time.perf_counter(), _now()
     check_target(output.path, path, in_place=output.in_place, force=output.force)
+    if not output.in_place:
+        refuse_edited(output.path, force=output.force)
+    if output.history:
+        check_place(output.history, ".csv", force=output.force)
     book = read_book(path)
     task = prepare(book, options, grasp)
-    state = None
-    if go_on:
-        saved = book.saved_run()
-        if saved.inputs_hash != task.inputs_hash:
-            raise InputError(
-                [
-                    Problem(
-                        book.source.package.name,
-                        "other inputs or parameters than those of its run",
-                        "the same, to go on from it",
-                        "undo the changes, or run it without --continue",
-                    )
-                ]
-            )
-        state = saved.state
+    saved = _saved_run(book, task) if go_on else None
+    refuse_infeasible(task)
+    if output.in_place:
+        _refuse_losses(output, book)
     result = search(
         task.space,
         task.rules,
         task.settings,
         task.benchmark.chromosome,
         stop(task),
-        state=state,
+        state=saved.state if saved else None,
         on_progress=on_progress,
     )
-    _write(task, result, book, output, began, previous=book if output.in_place else None)
+    if saved and result.state.generation == saved.state.generation:
+        result = replace(result, matrix=saved.matrix, children=saved.children)
+    save(_full_workbook(task, result, book, began)[0], output.path)
+    if output.history:
+        save(result.history().to_csv(index=False).encode(), output.history)
     return task, result, time.perf_counter() - clock
 
 
-def _write(
-    task: Task,
-    result: Result,
-    book: Book,
-    output: Output,
-    began: datetime,
-    *,
-    previous: Book | None,
-) -> None:
-    source = book.source.package
-    origin = Origin(Path(source.name).name, source.sha256, began, datetime.now())  # noqa: DTZ005
-    user = book.user_chromosome
-    stale_user = user if user and not is_usable(user, task.space) else None
-    content, filled = full_workbook(
-        task, result, origin, what_if=book.what_if, stale_user=stale_user
+def _saved_run(book: Book, task: Task) -> SavedRun:
+    refuse_other_inputs(book.source, task)
+    return book.saved_run()
+
+
+# --- writing ---
+
+
+def _refuse_losses(output: Output, previous: Book) -> None:
+    """Refuse to replace a workbook that holds something which is not ours, before any search."""
+    if not (output.force or previous.is_untouched):
+        content, ours = _as_written(previous)
+        refuse_losses(output.path, previous.source, content, ours)
+
+
+def _as_written(book: Book) -> tuple[bytes, Filled]:
+    """Write a workbook again as it was, with its own cards and results, to know our cells."""
+    names = book.source.names
+    genes = names.get(layout.USER_BLOCK.name)
+    if genes is None:
+        content = export_workbook(book.space)
+        cells = filled_cells(Source(Package("export", content)), layout.OPTION_SPACE)
+        return content, {layout.OPTION_SPACE: cells}
+    children = sum(re.fullmatch(r"Child\d+", name) is not None for name in names)
+    slots = genes.columns - 1
+    kinds = (
+        replace(kind, count_min=min(kind.count_min, slots), count_max=slots)
+        for kind in book.space.kinds
     )
-    if previous:
-        refuse_losses(output.path, previous.source, content, filled, force=output.force)
-    save(content, output.path)
+    was = replace(
+        book,
+        space=replace(book.space, kinds=tuple(kinds)),
+        parameters=replace(book.parameters, children=max(2, children)),
+    )
+    any_grasp = random_chromosome(was.space, np.random.default_rng(0))
+    task = settle(was.space, was.parameters, any_grasp)
+    shown = was.shown_run()
+    result = _not_begun(task, shown.state if shown else None)
+    return _full_workbook(task, result, was, _now())
 
 
-def write_history(result: Result, path: Path) -> None:
-    """Write every change of the fittest to a CSV file.
+def _full_workbook(task: Task, result: Result, book: Book, began: datetime) -> tuple[bytes, Filled]:
+    source = book.source.package
+    name = Path(source.name).name.encode(errors="backslashreplace").decode()
+    user = book.user_chromosome
+    return full_workbook(
+        task,
+        result,
+        Origin(name, source.sha256, began, _now()),
+        what_if=book.what_if,
+        stale_user=user if user and not is_usable(user, task.space) else None,
+    )
 
-    Raises
-    ------
-    OutputError
-        If that fails.
-    """
-    save(result.history().to_csv(index=False).encode(), path)
+
+def _now() -> datetime:
+    return datetime.now()  # noqa: DTZ005 (a workbook shows local time)

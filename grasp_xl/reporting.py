@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from grasp_xl.errors import GraspError, InputError, Problem
-from grasp_xl.grasp import Grasp
 from grasp_xl.rules import TERMS, Rules
-from grasp_xl.search.result import Result
-from grasp_xl.task import Task
 
 if TYPE_CHECKING:
     from grasp_xl.commands import Checked
+    from grasp_xl.grasp import Grasp
+    from grasp_xl.search.result import Result
+    from grasp_xl.task import Task
 
 Json = dict[str, Any]
 
@@ -118,8 +118,5 @@ def problems_json(problems: Sequence[Problem]) -> list[Json]:
 
 
 def error_json(error: GraspError) -> Json:
-    """Return an error, and all problems where there are several."""
-    told: Json = {"error": error.message, "where": error.where, "hint": error.hint}
-    if isinstance(error, InputError):
-        told["problems"] = problems_json(error.problems)
-    return told
+    """Return an error."""
+    return {"error": error.message, "where": error.where, "hint": error.hint}

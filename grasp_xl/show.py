@@ -5,10 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.console import Console
+from rich.progress import BarColumn, TextColumn
+from rich.progress import Progress as Bars
 from rich.table import Table
 
 from grasp_xl.compiled import is_compiled
@@ -19,15 +22,23 @@ from grasp_xl.search.stop import Progress
 
 if TYPE_CHECKING:
     from grasp_xl.commands import Checked
-    from grasp_xl.search.genetic import OnProgress
     from grasp_xl.search.result import Result
     from grasp_xl.task import Task
 
 UNITS = {"cost": "$", "moment": "N-mm", "deviation": "mm", "structure": "mm"}
 REFRESH_SECONDS = 0.2
 
-_out = Console(soft_wrap=True, highlight=False)
-_err = Console(stderr=True, soft_wrap=True, highlight=False)
+
+class Terminal(Console):
+    """A console that leaves a pipe that nobody reads any more to ``cli.main``."""
+
+    def on_broken_pipe(self) -> None:
+        """Raise what was raised."""
+        raise  # noqa: PLE0704 (rich calls this while it handles BrokenPipeError)
+
+
+_out = Terminal(soft_wrap=True, highlight=False)
+_err = Terminal(stderr=True, soft_wrap=True, highlight=False)
 
 
 def line(text: str) -> None:
@@ -47,27 +58,60 @@ def compile_notice(*, quiet: bool) -> None:
         _err.print("Compiling the search for this machine, once: about 10 seconds ...")
 
 
+class SearchBar:
+    """A progress bar of a search, once the search says how far it goes.
+
+    Parameters
+    ----------
+    bars : rich.progress.Progress or None
+        None shows nothing.
+    """
+
+    def __init__(self, bars: Bars | None) -> None:
+        self._bars = bars
+        self._limits: tuple[int, float] = (0, float("inf"))
+        self._first: tuple[float, int] | None = None
+        self._shown = 0.0
+
+    def begin(self, generations: int, seconds: float | None) -> None:
+        """Note where the search ends at the latest."""
+        self._limits = (generations, float("inf") if seconds is None else seconds)
+
+    def __call__(self, now: Progress) -> None:
+        """Show how far the search is."""
+        clock = time.perf_counter()
+        if self._bars is None or clock - self._shown < REFRESH_SECONDS:
+            return
+        self._shown = clock
+        if self._first is None:
+            self._first = (clock, now.generation)
+            self._bars.add_task("Searching", total=self._limits[0], completed=now.generation)
+        seconds, done = clock - self._first[0], now.generation - self._first[1]
+        self._bars.update(
+            self._bars.task_ids[0],
+            completed=now.generation,
+            description=self._told(now, seconds, done),
+            refresh=True,
+        )
+
+    def _told(self, now: Progress, seconds: float, done: int) -> str:
+        told = f"Generation {now.generation:,}, best {now.best_value:.6g}"
+        if not done:
+            return told
+        rate = done / seconds
+        left = min((self._limits[0] - now.generation) / rate, self._limits[1] - seconds)
+        return f"{told}, {rate:,.0f}/s, {max(0.0, left):,.0f} s left"
+
+
 @contextmanager
-def progress(*, quiet: bool) -> Iterator[OnProgress | None]:
-    """Give a callback that shows generation, best value and rate, on a terminal only."""
+def progress(*, quiet: bool) -> Iterator[SearchBar]:
+    """Give a bar with generation, best value, rate and time left; it shows on a terminal only."""
     if quiet or not _err.is_terminal:
-        yield None
+        yield SearchBar(None)
         return
-    began = time.perf_counter()
-    shown = 0.0
-    with _err.status("Reading ...") as status:
-
-        def report(now: Progress) -> None:
-            nonlocal shown
-            elapsed = time.perf_counter() - began
-            if elapsed - shown >= REFRESH_SECONDS:
-                shown = elapsed
-                rate = now.generation / elapsed
-                status.update(
-                    f"Generation {now.generation:,}, best {now.best_value:.4f}, {rate:,.0f}/s"
-                )
-
-        yield report
+    columns = (BarColumn(), TextColumn("{task.description}", markup=False))
+    with Bars(*columns, console=_err, auto_refresh=False, transient=True) as bars:
+        yield SearchBar(bars)
 
 
 def grasps(columns: Sequence[tuple[str, Grasp]], rules: Rules) -> None:
@@ -92,7 +136,6 @@ def grasps(columns: Sequence[tuple[str, Grasp]], rules: Rules) -> None:
 
 def run(task: Task, result: Result, seconds: float, path: Path) -> None:
     """Print the outcome of a genetic run."""
-    warnings(task.warnings)
     rows = [("Benchmark", result.benchmark)]
     if result.best:
         rows.append(("Best", result.best))
@@ -113,7 +156,6 @@ def run(task: Task, result: Result, seconds: float, path: Path) -> None:
 
 def check(checked: Checked) -> None:
     """Print what ``check`` found."""
-    warnings(checked.warnings)
     space = checked.space
     for kind in space.kinds:
         line(
@@ -121,7 +163,7 @@ def check(checked: Checked) -> None:
             f"{kind.force_n:g} N, ${kind.price:g} each"
         )
     line(f"part: {space.part.mass_g:,.6g} g, {space.part.weight_n:,.6g} N")
-    line(f"different grasps: {checked.search_space:.4e}")
+    line(f"different grasps: {Decimal(checked.search_space):.4e}")
     line(f"FoS of the most elements: {checked.max_fos:.4g}")
     for term, floor in checked.floors._asdict().items():
         line(f"no {term} below {floor:,.6g} {UNITS[term]}")

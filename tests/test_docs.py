@@ -26,7 +26,7 @@ from grasp_xl.search import stop
 from grasp_xl.search.floors import search_space
 from grasp_xl.space import GRAVITY_M_S2, ElementKind, OptionSpace, Part, frozen, scaled_polygon
 from grasp_xl.task import DEFAULTS, Parameters
-from grasp_xl.workbook import cells, layout, package, reading, reading_ga, run_log
+from grasp_xl.workbook import cells, layout, package, reading, run_log
 from grasp_xl.workbook.book import read_book
 
 ROOT = Path(__file__).parents[1]

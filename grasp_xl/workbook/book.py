@@ -2,18 +2,36 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import io
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from grasp_xl.chromosome import Chromosome
-from grasp_xl.errors import Problem
+from grasp_xl.errors import GraspError, InputError, Problem
+from grasp_xl.rules import moment_arm
 from grasp_xl.space import OptionSpace
-from grasp_xl.task import Parameters
-from grasp_xl.workbook import layout, run_log
-from grasp_xl.workbook.cells import Source
+from grasp_xl.task import Parameters, settle
+from grasp_xl.workbook import layout
+from grasp_xl.workbook.cells import Source, cells_of
+from grasp_xl.workbook.layout import Field
 from grasp_xl.workbook.reading import open_source, read_option_space
-from grasp_xl.workbook.reading_ga import read_chromosome, read_parameters
-from grasp_xl.workbook.reading_run import SavedRun, read_saved_run
+from grasp_xl.workbook.reading_ga import (
+    find_block,
+    find_ga_sheet,
+    read_chromosome,
+    read_parameters,
+)
+from grasp_xl.workbook.reading_run import (
+    SavedRun,
+    genes_as_they_stand,
+    logged_values,
+    read_saved_run,
+    shown_run,
+)
+from grasp_xl.workbook.stamp import is_untouched
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +44,7 @@ class Book:
     space : OptionSpace
     parameters : Parameters
     user_chromosome : Chromosome or None
+        None also where the program assigned it.
     what_if : Chromosome or None
         Genes that the designer typed into the What-if card.
     """
@@ -41,6 +60,11 @@ class Book:
         """What is odd about it."""
         return tuple(self.source.warnings)
 
+    @property
+    def is_untouched(self) -> bool:
+        """Whether it is just as we wrote it."""
+        return is_untouched(io.BytesIO(self.source.package.content))
+
     def saved_run(self) -> SavedRun:
         """Read the state of the run that it holds.
 
@@ -51,6 +75,10 @@ class Book:
         """
         return read_saved_run(self.source, self.space)
 
+    def shown_run(self) -> SavedRun | None:
+        """Read the run that it shows, though somebody may have changed it."""
+        return shown_run(self.source, self.space)
+
 
 def read_book(path: Path) -> Book:
     """Read an exported sheet or a full workbook.
@@ -60,20 +88,65 @@ def read_book(path: Path) -> Book:
     InputError
         With every problem found.
     """
-    source = open_source(path)
+    return _book(open_source(path), stale_genes=False)
+
+
+def read_previous(path: Path) -> Book | None:
+    """Read the full workbook that a new export goes into; None if the file is none.
+
+    Its chromosomes may have genes that its option space does not have.
+
+    Raises
+    ------
+    InputError
+        With every problem found in a full workbook.
+    """
+    try:
+        source = open_source(path)
+    except InputError:
+        return None
+    return _book(source, stale_genes=True) if find_ga_sheet(source) else None
+
+
+def _book(source: Source, *, stale_genes: bool) -> Book:
     space = read_option_space(source)
     parameters = read_parameters(source)
-    user = read_chromosome(source, space, layout.USER_BLOCK)
-    what_if = _typed_what_if(source, space)
+
+    def typed(block: Field) -> Chromosome | None:
+        if stale_genes and find_block(source, block):
+            with suppress(ValueError):  # then what is wrong is noted, cell by cell
+                return Chromosome(genes_as_they_stand(source, block))
+        return read_chromosome(source, space, block)
+
+    user = None if _is_assigned(source, space, parameters) else typed(layout.USER_BLOCK)
+    what_if = typed(layout.WHAT_IF) if _is_typed(source, layout.WHAT_IF) else None
     source.finish()
     return Book(source, space, parameters, user, what_if)
 
 
-def _typed_what_if(source: Source, space: OptionSpace) -> Chromosome | None:
-    """Return the genes of the What-if card if the designer typed them: not those we wrote."""
-    if layout.WHAT_IF.name not in source.names:
-        return None
-    shown = read_chromosome(source, space, layout.WHAT_IF)
-    logged = source.names.get(run_log.WHAT_IF_WRITTEN)
-    written = str(source.value(logged)) if logged else ""
-    return shown if shown and run_log.genes_text(shown) != written else None
+def _is_assigned(source: Source, space: OptionSpace, parameters: Parameters) -> bool:
+    """Tell whether the program chose the user-defined chromosome, and nobody typed over it."""
+    area = find_block(source, layout.USER_BLOCK)
+    if area is None or min(area.row - 2, area.column - 1) < 0:
+        return False
+    if layout.ASSIGNED_MARK not in str(source.value(area.cell(-2, -1))):
+        return False
+    logged = logged_values(source)
+    with suppress(KeyError, ValueError, TypeError, GraspError):
+        written = replace(
+            parameters,
+            fos=float(str(logged["FoS goal"])),
+            clearance_mm=float(str(logged["Minimum distance (mm)"])),
+            density_ratio=float(str(logged["Density ratio"])),
+            moment_arm=moment_arm(str(logged["Moment arm"])),
+        )
+        assigned = settle(space, written, None).benchmark.chromosome.genes
+        return np.array_equal(assigned, genes_as_they_stand(source, layout.USER_BLOCK))
+    return False
+
+
+def _is_typed(source: Source, block: Field) -> bool:
+    """Tell whether any gene of a block is a plain value, and not a formula of ours."""
+    area = source.names.get(block.name)
+    cells = [cell for row in cells_of(area) for cell in row] if area else []
+    return any(source.formula(cell) is None and not source.blank(cell) for cell in cells)

@@ -29,6 +29,7 @@ EDGE_HEADER = ("i", "start x", "start y", "edge x", "edge y", "squared length")
 PART_POLYGON_COLUMN = 6
 INPUT_COLUMN = 9
 INPUTS_EDITED = "InputsEdited"
+INPUTS_USABLE = "InputsUsable"
 BLOCK_COLUMN = 13
 ELEMENT_HEADER = (
     "element",
@@ -55,6 +56,10 @@ SUMMARY_HEADER = (
 )
 TABLES = ("distance", "structure with the main truss here", "edge of the hull")
 SLACK = "1E-9"
+SAME_PLACE = "1E-9"
+"""Coordinates nearer than this are the same place (mm)."""
+FAR = "1E9"
+"""Beyond every row and column."""
 
 LISTED_INPUTS = (
     "PartMass",
@@ -71,6 +76,16 @@ LISTED_INPUTS = (
     "MomentArm",
 )
 """Inputs whose change tells a card that the engine's numbers are for another state."""
+
+NUMERIC_INPUTS = (
+    *(field.name for field in layout.PART.fields),
+    *(labels.field(s) for labels in KINDS for s in ("Min", "Max", "Force", "Price")),
+    "ScaleFactor",
+    "MinClearance",
+    "DensityRatio",
+    "FoSGoal",
+)
+"""Inputs without which no card has a meaning."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,7 +173,7 @@ def write_calc(
     """
     pen.write(0, 0, "CALC: helper cells of the live cards", Style.TITLE)
     _edges(pen, space)
-    _inputs(pen, inputs)
+    _inputs(pen, space, inputs)
     ratio = float(inputs["DensityRatio"] or 0.0)
     for title, block, grasp in blocks:
         pen.put(block_cells(title, block, space, grasp, ratio))
@@ -204,23 +219,44 @@ def closed_polygon(column: int, corners: int) -> Area:
     return Area(CALC, FIRST_ROW, column, corners + 1)
 
 
-def _inputs(pen: Pen, inputs: dict[str, CellValue]) -> None:
+def _inputs(pen: Pen, space: OptionSpace, inputs: dict[str, CellValue]) -> None:
     pen.write(1, INPUT_COLUMN, "Inputs changed", Style.HEADING)
-    pen.row(2, INPUT_COLUMN, ("input", "as written", "now"), Style.HEADER)
-    for row, name in enumerate(LISTED_INPUTS, FIRST_ROW):
-        value = inputs[name]
+    pen.row(2, INPUT_COLUMN, ("input", "as written", "changed"), Style.HEADER)
+    watched = [(name, name, inputs[name]) for name in LISTED_INPUTS]
+    watched += _watched_places(space)
+    for row, (name, now, value) in enumerate(watched, FIRST_ROW):
         pen.write(row, INPUT_COLUMN, name, Style.LABEL)
         pen.write(row, INPUT_COLUMN + 1, value, Style.TEXT)
-        written, now = Area(CALC, row, INPUT_COLUMN + 1), Area(CALC, row, INPUT_COLUMN + 2)
+        written = Area(CALC, row, INPUT_COLUMN + 1).local
         differs = (
-            f"IF(ISNUMBER({name}),IF(ISNUMBER({written.local}),"
-            f"IF(ABS({name}-{written.local})>{SLACK}*ABS({written.local}),1,0),1),"
-            f'IF({name}&""={written.local}&"",0,1))'
+            f"IF(ISNUMBER({now}),IF(ISNUMBER({written}),"
+            f"IF(ABS({now}-{written})>{SLACK}*ABS({written}),1,0),1),"
+            f'IF({now}&""={written}&"",0,1))'
         )
-        pen.write(now.row, now.column, 0, Style.MARK, differs)
-    flags = Area(CALC, FIRST_ROW, INPUT_COLUMN + 2, len(LISTED_INPUTS))
+        pen.write(row, INPUT_COLUMN + 2, 0, Style.MARK, differs)
+    flags = Area(CALC, FIRST_ROW, INPUT_COLUMN + 2, len(watched))
     pen.write(1, INPUT_COLUMN + 2, 0, Style.MARK, f"SUM({flags.absolute})")
     pen.name_area(INPUTS_EDITED, Area(CALC, 1, INPUT_COLUMN + 2))
+    row = FIRST_ROW + len(watched) + 1
+    pen.write(row, INPUT_COLUMN, "all are numbers", Style.LABEL)
+    numbers = f"COUNT({','.join(NUMERIC_INPUTS)})"
+    usable = f"IF({numbers}={len(NUMERIC_INPUTS)},1,0)"
+    pen.write(row, INPUT_COLUMN + 2, 1, Style.MARK, usable)
+    pen.name_area(INPUTS_USABLE, Area(CALC, row, INPUT_COLUMN + 2))
+
+
+def _watched_places(space: OptionSpace) -> list[tuple[str, str, CellValue]]:
+    """Return name, formula and value of a number that changes when a coordinate does."""
+    places = [(layout.APPROXIMATION_POLYGON, space.approximation_polygon_mm)]
+    places += [
+        (labels.locations_name, kind.footprints_mm)
+        for labels, kind in zip(KINDS, space.kinds, strict=True)
+        if kind.total
+    ]
+    return [
+        (name, f"(SUMSQ({name})+SUM({name}))", float((points**2).sum() + points.sum()))
+        for name, points in places
+    ]
 
 
 def block_cells(
@@ -301,8 +337,11 @@ def _distinct(block: CalcBlock, row: int) -> str:
         name: Area(CALC, block.first, block.column(name).column, row).absolute
         for name in ("active", "x", "y")
     }
-    x, y = (block.element(axis, row).local for axis in ("x", "y"))
-    twins = f"SUMPRODUCT({before['active']}*({before['x']}={x})*({before['y']}={y}))"
+    at_its_place = "*".join(
+        f"(ABS({before[axis]}-{block.element(axis, row).local})<{SAME_PLACE})"
+        for axis in ("x", "y")
+    )
+    twins = f"SUMPRODUCT({before['active']}*{at_its_place})"
     return f"IF({active}=1,IF({twins}=0,1,0),0)"
 
 
@@ -385,7 +424,9 @@ def _summary_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
     distances, structures, hull = (block.table(number).absolute for number in range(3))
     least = block.column("least structure").absolute
     longest = block.summary("longest").local
-    start = block.summary("main truss from").local
+    truss = block.summary("main truss from").local
+    row_of_truss = f"INDEX({structures},{truss},0)"
+    nearly_least = f"MIN({least})+{SLACK}*{longest}"
     twice_area = f"SUM({hull})"
     formulas = {
         "counts in range": _counts_in_range(block),
@@ -393,14 +434,21 @@ def _summary_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
         "elements": f"SUM({active})",
         "longest": f"IF(COUNT({distances})=0,0,MAX({distances}))",
         "shortest": f'IF(COUNT({distances})=0,"",MIN({distances}))',
-        "main truss from": f"IF(COUNT({least})=0,0,MATCH(MIN({least}),{least},0))",
-        "main truss to": f"IF({start}=0,0,MATCH(MIN({least}),INDEX({structures},{start},0),0))",
+        # Of trusses that are equal but for rounding (the diagonals of a rectangle), the first.
+        "main truss from": f"IF(COUNT({least})=0,0,{_first_below('ROW', least, nearly_least)})",
+        "main truss to": f"IF({truss}=0,0,{_first_below('COLUMN', row_of_truss, nearly_least)})",
         "hull area": f"IF({twice_area}/2<={SLACK}*{longest}^2,0,{twice_area}/2)",
         "centroid inside": f"IF({block.summary('hull area').local}=0,0,"
         f"IF(MIN({hull})>=-{SLACK}*{longest}^2,1,0))",
     }
     for title, formula in formulas.items():
         yield _at(block.summary(title), values.summary(title), Style.COORDINATE, formula)
+
+
+def _first_below(axis: str, cells: str, bound: str) -> str:
+    """Place, from 1, of the first number of a row or column of cells that is not above a bound."""
+    place = f"{axis}({cells})-MIN({axis}({cells}))+1"
+    return f"SUMPRODUCT(MIN({place}+{FAR}*(1-ISNUMBER({cells})*({cells}<={bound}))))"
 
 
 def _counts_in_range(block: CalcBlock) -> str:

@@ -14,6 +14,9 @@ from grasp_xl.rules import SLACK
 from grasp_xl.space import FloatArray, OptionSpace
 from grasp_xl.stability import support
 
+SAME_PLACE_MM = 1e-9
+"""Coordinates nearer than this are the same place: another's rounding."""
+
 Table = list[list[float | str]]
 
 
@@ -86,8 +89,9 @@ class CalcValues:
 
     def summary(self, title: str) -> float | str:
         """Value of a cell of the summary."""
-        leasts = [_least(row) for row in self.structure]
-        start = _position(leasts)
+        rows = np.flatnonzero(self.active)
+        ends = truss_ends(self.points[rows])
+        start, end = (int(rows[end]) + 1 for end in ends) if ends else (0, 0)
         numbers: dict[str, float | str] = {
             "counts in range": 1,
             "all in space": 1,
@@ -95,11 +99,29 @@ class CalcValues:
             "longest": max(_numbers(self.distance), default=0.0),
             "shortest": "" if self.shortest is None else self.shortest,
             "main truss from": start,
-            "main truss to": _position(self.structure[start - 1]) if start else 0,
+            "main truss to": end,
             "hull area": self.hull_area,
             "centroid inside": int(self.centroid_inside),
         }
         return numbers[title]
+
+
+def truss_ends(points: FloatArray) -> tuple[int, int] | None:
+    """Return the two points that the workbook's main truss joins, None for one point.
+
+    Of trusses that are equal but for rounding, say the diagonals of a rectangle, it is the first;
+    the engine's is any of them.
+    """
+    pairs = list(combinations(range(len(points)), 2))
+    lengths = {(i, j): float(np.linalg.norm((points[j] - points[i])[:2])) for i, j in pairs}
+    longest = max(lengths.values(), default=0.0)
+    branches = {
+        pair: criteria.truss_length(points, pair, density_ratio=0.0)
+        for pair, length in lengths.items()
+        if length >= longest * (1 - SLACK)
+    }
+    bound = min(branches.values(), default=0.0) + SLACK * longest
+    return next((pair for pair, size in branches.items() if size <= bound), None)
 
 
 def _numbers(table: Table) -> list[float]:
@@ -108,12 +130,6 @@ def _numbers(table: Table) -> list[float]:
 
 def _least(cells: list[float | str]) -> float | str:
     return min((value for value in cells if not isinstance(value, str)), default="")
-
-
-def _position(cells: list[float | str]) -> int:
-    """Place of the first least number, from 1; 0 where there is none."""
-    least = _least(cells)
-    return 0 if least == "" else cells.index(least) + 1
 
 
 def _blank(size: int) -> Table:
@@ -142,12 +158,11 @@ def _structures(
 
 
 def _distinct(points: FloatArray, active: list[bool]) -> list[bool]:
-    seen: set[tuple[float, float]] = set()
     flags = []
-    for point, on in zip(points[:, :2].tolist(), active, strict=True):
-        flags.append(on and tuple(point) not in seen)
-        if on:
-            seen.add((point[0], point[1]))
+    for row, point in enumerate(points[:, :2]):
+        before = points[:row, :2][active[:row]]
+        twins = (np.abs(before - point) < SAME_PLACE_MM).all(axis=1)
+        flags.append(active[row] and not twins.any())
     return flags
 
 

@@ -7,14 +7,14 @@ engine's value.  What takes more than one step is worked out on the sheet ``Calc
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from grasp_xl.chromosome import BLANK_GENE, Chromosome
 from grasp_xl.grasp import Grasp
 from grasp_xl.rules import TERMS, Rules
 from grasp_xl.space import OptionSpace
 from grasp_xl.stability import support
-from grasp_xl.workbook.calc_sheet import INPUTS_EDITED, SLACK, CalcBlock
+from grasp_xl.workbook.calc_sheet import INPUTS_EDITED, INPUTS_USABLE, SLACK, CalcBlock
 from grasp_xl.workbook.layout import (
     DIVERGENCE_LABEL,
     FITNESS_HEADER,
@@ -32,8 +32,10 @@ MOMENT_UNITS = (None, "(mm)", "(mm)", "(mm)", "(N-mm)", "(N-mm)", "(N-mm)")
 AXES = ("x", "y", "z")
 GOALS = ("FoSGoal", *GOAL_NAMES)
 DASH = "-"
+BAD_INPUT = "An input is empty or no number: look at the part, the elements and the parameters."
 BAD_COUNT = "A total is out of range: type a whole number from Min. to Max. of its kind."
 BAD_INDEX = "An active index is not in the option space: type a whole number from 1 to its total."
+NO_GOAL = "A goal is empty or no number: look at the goals and the user-defined chromosome."
 WEAK = "FoS is below its goal. "
 CLOSE = "Two elements are closer than the minimum distance. "
 MEETS_ALL = "Meets FoS, distance and every goal."
@@ -117,7 +119,7 @@ class LiveCard:
 
     @property
     def _valid(self) -> str:
-        return f"{self._sum('counts in range')}*{self._sum('all in space')}=1"
+        return f"{INPUTS_USABLE}*{self._sum('counts in range')}*{self._sum('all in space')}=1"
 
     def _when_valid(self, formula: str) -> str:
         return f'IF({self._valid},{formula},"{DASH}")'
@@ -171,10 +173,12 @@ class LiveCard:
         yield self._cell(row + 1, 1, grasp.force_n, Style.FORCE, force)
         cost = self._when_valid(self._per_kind("Price"))
         yield self._cell(row + 1, 2, grasp.terms.cost, Style.MONEY, cost)
-        yield self._cell(row + 1, 4, "DD Fitness", Style.STACKED_HEADER)
-        yield self._cell(row + 1, 5, "Structure Fitness", Style.STACKED_HEADER)
+        for column, label in ((4, "DD Fitness"), (5, "Structure Fitness")):
+            header = self._cell(row + 1, column, label, Style.STACKED_HEADER)
+            yield replace(header, rows=3)
         yield self._cell(row + 2, 0, "Part weight (N)", Style.LABEL)
-        yield self._cell(row + 2, 1, grasp.weight_n, Style.FORCE, "PartMass/1000*9.81")
+        weight = f'IF({INPUTS_USABLE}=1,PartMass/1000*9.81,"{DASH}")'
+        yield self._cell(row + 2, 1, grasp.weight_n, Style.FORCE, weight)
         yield self._cell(row + 3, 0, "FoS", Style.LABEL)
         fos = self._when_valid(f"{self._ref(row + 1, 1)}/{self._ref(row + 2, 1)}")
         yield self._cell(row + 3, 1, grasp.fos, Style.RESULT, fos)
@@ -236,13 +240,19 @@ class LiveCard:
             yield self._cell(
                 row + 2, column, normalised[column], Style.RATIO, self._when_valid(ratio)
             )
-            yield self._cell(row + 3, column, goals[column], Style.RESULT, GOALS[column])
+            typed = f'IF(ISBLANK({GOALS[column]}),"{DASH}",{GOALS[column]})'
+            yield self._cell(row + 3, column, goals[column], Style.RESULT, typed)
         four = self.card.at(row + 2, 1, 1, len(TERMS)).absolute
-        total = self._when_valid(f"SUM({four})")
+        total = self._when_valid(f'IF({self._goals_known},SUM({four}),"{DASH}")')
         yield self._cell(row + 2, 5, grasp.divergence, Style.DIVERGENCE, total)
         yield self._cell(row + 3, 5, "<-- Fitness Goals", Style.NOTE)
         status = status_text(grasp)
         yield self._cell(row + 4, 0, status, Style.STATUS, self._status_formula())
+
+    @property
+    def _goals_known(self) -> str:
+        goals = self.card.at(self.card.summary_row + 14, 0, 1, len(GOALS)).absolute
+        return f"COUNT({goals})={len(GOALS)}"
 
     def _status_formula(self) -> str:
         row = self.card.summary_row
@@ -252,11 +262,13 @@ class LiveCard:
         close = f'IF({shortest}="","",IF({shortest}<MinClearance*(1-{SLACK}),"{CLOSE}",""))'
         ratios = self.card.at(row + 13, 1, 1, len(TERMS)).absolute
         meets = f'IF(MAX({ratios})<=1+{SLACK},"{MEETS_ALL}","{MEETS_SOME}")'
-        failures = f"{weak}&{close}"
+        meets = f'IF({self._goals_known},{meets},"{NO_GOAL}")'
+        failures = f"TRIM({weak}&{close})"
         return (
+            f'IF({INPUTS_USABLE}=0,"{BAD_INPUT}",'
             f'IF({self._sum("counts in range")}=0,"{BAD_COUNT}",'
             f'IF({self._sum("all in space")}=0,"{BAD_INDEX}",'
-            f'IF({failures}="",{meets},{failures})))'
+            f'IF({failures}="",{meets},{failures}))))'
         )
 
     def _note_cells(self) -> Iterator[Cell]:
@@ -328,6 +340,7 @@ class LiveCard:
             f"IF({test},N({self._ref(row, 1 + number)}),0)" for number, test in enumerate(named)
         )
         divergence = self._ref(row, 5)
+        summed = f'IF({self._goals_known},{summed},"{DASH}")'
         return f"IF({count}=0,{divergence},IF({count}=1,{alone},{summed}))"
 
     def _difference_formula(self) -> str:
@@ -350,7 +363,7 @@ def status_text(grasp: Grasp) -> str:
     """Return what the card says of its grasp, as its formula does."""
     if grasp.feasible:
         return MEETS_ALL if grasp.meets_all_goals else MEETS_SOME
-    return f"{'' if grasp.meets_fos else WEAK}{'' if grasp.is_clear else CLOSE}"
+    return f"{'' if grasp.meets_fos else WEAK}{'' if grasp.is_clear else CLOSE}".strip()
 
 
 def fitness_cells(first: Area, grasp: Grasp, block: CalcBlock) -> Iterator[Cell]:
@@ -376,18 +389,20 @@ def _block_formulas(first: Area, block: CalcBlock) -> list[str]:
     ]
     arm = f'SQRT({apart[0]}^2+{apart[1]}^2+IF(MomentArm="plan",0,{apart[2]}^2))'
     elements = block.summary("elements").reference
+    divergence = "+".join(
+        f"IF(N({goal})<{SLACK},0,{first.cell(1, number).local}/{goal})"
+        for number, goal in enumerate(GOAL_NAMES, 1)
+    )
     formulas = [
         f"SUM({force})/{weight}",
         cost,
         f"{arm}*{weight}",
         f"SUM({block.column('to polygon').reference})/{elements}",
         f"IF({elements}<2,0,MIN({block.column('least structure').reference}))",
-        "+".join(
-            f"IF(N({goal})<{SLACK},0,{first.cell(1, number).local}/{goal})"
-            for number, goal in enumerate(GOAL_NAMES, 1)
-        ),
+        f'IF(COUNT({",".join(GOAL_NAMES)})={len(GOAL_NAMES)},{divergence},"{DASH}")',
     ]
-    valid = (
-        f"{block.summary('counts in range').reference}*{block.summary('all in space').reference}"
+    in_range, in_space = (
+        block.summary(name).reference for name in ("counts in range", "all in space")
     )
+    valid = f"{INPUTS_USABLE}*{in_range}*{in_space}"
     return [f'IF({valid}=1,{formula},"{DASH}")' for formula in formulas]

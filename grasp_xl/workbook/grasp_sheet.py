@@ -22,6 +22,7 @@ from grasp_xl.workbook.calc_sheet import (
     CalcBlock,
     closed_polygon,
 )
+from grasp_xl.workbook.calc_values import truss_ends
 from grasp_xl.workbook.layout import (
     DEFAULT_DIAMETERS_MM,
     GRASP,
@@ -204,7 +205,7 @@ def _pair(point: FloatArray) -> Pair:
 def _truss_rows(picture: Picture) -> list[int]:
     """Rows of the helper cells that the main truss joins."""
     rows = list(_places(picture))
-    return [rows[end] for end in picture.grasp.main_truss or ()]
+    return [rows[end] for end in truss_ends(picture.grasp.points_mm) or ()]
 
 
 def _main_truss(picture: Picture) -> Stroke:
@@ -306,7 +307,6 @@ def _to_scale(chart: Any, space: OptionSpace, title: str) -> None:  # noqa: ANN4
         }
     )
     chart.set_title({"name": title, "name_font": {"size": 11}})
-    chart.show_na_as_empty_cell()
 
 
 def _frame(space: OptionSpace) -> tuple[tuple[float, float], float]:

@@ -24,13 +24,17 @@ CellValue = str | int | float | bool | None
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """What one cell of a sheet holds: a value, or a formula with the value that it gives."""
+    """What one cell of a sheet holds: a value, or a formula with the value that it gives.
+
+    ``rows`` above 1 merge it with the cells below, for a label only.
+    """
 
     row: int
     column: int
     value: CellValue
     style: Style = Style.LABEL
     formula: str | None = None
+    rows: int = 1
 
 
 class ExactWorksheet(Worksheet):  # type: ignore[misc]
@@ -88,7 +92,11 @@ class Pen:
     def put(self, cells: Iterable[Cell]) -> None:
         """Write many cells."""
         for cell in cells:
-            self.write(cell.row, cell.column, cell.value, cell.style, cell.formula)
+            if cell.rows > 1:
+                area = Area(self.name, cell.row, cell.column, cell.rows)
+                self.span(area, cell.value, cell.style)
+            else:
+                self.write(cell.row, cell.column, cell.value, cell.style, cell.formula)
 
     def row(self, row: int, column: int, values: Iterable[CellValue], style: Style) -> None:
         """Write values side by side."""

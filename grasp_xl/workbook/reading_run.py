@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import math
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,18 +12,74 @@ import numpy as np
 from grasp_xl.chromosome import BLANK_GENE, Chromosome
 from grasp_xl.errors import InputError, Problem
 from grasp_xl.search.result import State, Trace, gene_columns, load_stream
-from grasp_xl.space import OptionSpace
+from grasp_xl.space import IntArray, OptionSpace
+from grasp_xl.task import Task
 from grasp_xl.workbook import layout, run_log
-from grasp_xl.workbook.cells import Source
+from grasp_xl.workbook.cells import Source, Value
+from grasp_xl.workbook.history_sheet import MAX_HISTORY
+from grasp_xl.workbook.layout import Area, Field
 from grasp_xl.workbook.reading_ga import find_block
+
+INPUTS_HASH = "Hash of the inputs used"
+GENERATIONS = "Generations asked for"
+DESIGNS_LISTED = "Valid designs listed"
+CHANGES_LISTED = "Changes listed in the history"
+"""Labels of the run log."""
+
+UNREADABLE = (ValueError, TypeError, IndexError, KeyError, OverflowError, RecursionError)
+"""What reading a run raises where somebody changed it."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SavedRun:
-    """Where an earlier run stands, and the hash of what it was run on."""
+    """Where an earlier run stands.
+
+    Parameters
+    ----------
+    state : State
+    matrix : IntArray
+        Mutation matrix of its last generation.
+    children : tuple of Chromosome
+        Children of its last generation.
+    """
 
     state: State
-    inputs_hash: str
+    matrix: IntArray
+    children: tuple[Chromosome, ...]
+
+
+def logged_values(source: Source) -> dict[str, Value]:
+    """Read all values of the run log, by label; none where there is no run log."""
+    if run_log.RANDOM_STATE not in source.names:
+        return {}
+    rows = source.grid(source.names[run_log.RANDOM_STATE].sheet).rows.values()
+    return {str(values[0]): values[1] for values in rows if len(values) > 1}
+
+
+def refuse_other_inputs(source: Source, task: Task) -> None:
+    """Refuse to go on from a run that was on other inputs than those of a task.
+
+    Raises
+    ------
+    InputError
+        Naming the parameters that differ.
+    """
+    logged = logged_values(source)
+    if logged and logged.get(INPUTS_HASH) != task.inputs_hash:
+        now = (("Seed", task.settings.seed), *run_log.parameter_rows(task))
+        told = [
+            f"{label} {value}, not {logged.get(label)}"
+            for label, value in now
+            if label != GENERATIONS and not _alike(value, logged.get(label))
+        ]
+        found = f"inputs that changed since its run: {'; '.join(told) or 'the option space'}"
+        raise _no_run(source, found, "undo the changes, or run it without --continue")
+
+
+def _alike(value: Value, logged: Value) -> bool:
+    if isinstance(value, float) and isinstance(logged, int | float):
+        return math.isclose(value, logged, rel_tol=1e-12)
+    return value == logged
 
 
 def read_saved_run(source: Source, space: OptionSpace) -> SavedRun:
@@ -32,15 +90,37 @@ def read_saved_run(source: Source, space: OptionSpace) -> SavedRun:
     InputError
         If it holds none, or its parts do not fit together.
     """
-    if run_log.RANDOM_STATE not in source.names:
+    logged = logged_values(source)
+    if not logged:
         raise _no_run(source, "no run", "run it once without --continue")
     try:
-        state = _state(source, space)
-    except (ValueError, TypeError, IndexError, KeyError) as error:
-        raise _no_run(
-            source, f"a damaged run log or history ({error})", "run it without --continue"
-        ) from error
-    return SavedRun(state, str(source.value(source.names[run_log.INPUTS_HASH])))
+        saved = _saved_run(source, space, logged)
+        _check(saved.state, logged)
+    except UNREADABLE as error:
+        found = f"a run log, history or list of designs that was edited ({error})"
+        raise _no_run(source, found, "run it without --continue") from error
+    return saved
+
+
+def shown_run(source: Source, space: OptionSpace) -> SavedRun | None:
+    """Read a run as a workbook shows it, though somebody may have sorted or cut its lists."""
+    with suppress(*UNREADABLE):
+        return _saved_run(source, space, logged_values(source))
+    return None
+
+
+def genes_as_they_stand(source: Source, block: Field) -> IntArray:
+    """Read the genes of a chromosome block, also those that no option space has.
+
+    Raises
+    ------
+    ValueError
+        If there is no such block, or something else than whole numbers in it.
+    """
+    area = find_block(source, block)
+    if area is None:
+        raise ValueError(f"no block {block.label!r}")
+    return _genes(source, area)
 
 
 def _no_run(source: Source, found: str, hint: str) -> InputError:
@@ -48,55 +128,82 @@ def _no_run(source: Source, found: str, hint: str) -> InputError:
     return InputError([Problem(source.package.name, found, expected, hint)])
 
 
-def _state(source: Source, space: OptionSpace) -> State:
-    def logged(name: str) -> object:
-        return source.value(source.names[name])
-
-    random_state = str(logged(run_log.RANDOM_STATE))
-    load_stream(random_state)
-    generation = _whole(logged(run_log.GENERATIONS_DONE))
-    best_text = logged(run_log.BEST_GRASP)
-    best = _checked(space, np.array(json.loads(str(best_text)))) if best_text else None
-    designs = _trace(source, space, layout.VALID_DESIGNS, layout.TABLE_ROW)
-    return State(
-        generation=generation,
-        evaluations=_whole(logged(run_log.EVALUATIONS)),
-        parent=_block(source, space, layout.PARENT_BLOCK),
-        random_state=random_state,
-        random_chromosome=_block(source, space, layout.RANDOM_BLOCK),
-        initial=_block(source, space, layout.INITIAL_BLOCK),
-        changes=_real_changes(_trace(source, space, layout.HISTORY, layout.HISTORY_ROW)),
-        designs=designs,
-        best=best,
-        improved_at=_whole(logged(run_log.BEST_FOUND_AT)) if best else 0,
-        earlier_designs=_whole(logged(run_log.DESIGNS_FOUND)) - len(designs),
+def _saved_run(source: Source, space: OptionSpace, logged: dict[str, Value]) -> SavedRun:
+    children = [
+        source.names[name]
+        for number in range(1, 1 + len(source.names))
+        if (name := f"Child{number}") in source.names
+    ]
+    return SavedRun(
+        state=_state(source, space, logged),
+        matrix=genes_as_they_stand(source, layout.MATRIX_BLOCK),
+        children=tuple(_checked(space, _genes(source, area)) for area in children),
     )
 
 
-def _whole(value: object) -> int:
+def _state(source: Source, space: OptionSpace, logged: dict[str, Value]) -> State:
+    def named(name: str) -> Value:
+        return source.value(source.names[name])
+
+    random_state, best_text = str(named(run_log.RANDOM_STATE)), named(run_log.BEST_GRASP)
+    load_stream(random_state)
+    best = _checked(space, np.array(json.loads(str(best_text)))) if best_text else None
+    changes = _trace(source, space, layout.HISTORY, layout.HISTORY_ROW, logged[CHANGES_LISTED])
+    designs = _trace(source, space, layout.VALID_DESIGNS, layout.TABLE_ROW, logged[DESIGNS_LISTED])
+    parent = _checked(space, genes_as_they_stand(source, layout.PARENT_BLOCK))
+    return State(
+        generation=_whole(named(run_log.GENERATIONS_DONE)),
+        evaluations=_whole(named(run_log.EVALUATIONS)),
+        parent=parent,
+        random_state=random_state,
+        random_chromosome=_checked(space, genes_as_they_stand(source, layout.RANDOM_BLOCK)),
+        initial=_checked(space, genes_as_they_stand(source, layout.INITIAL_BLOCK)),
+        changes=changes,
+        designs=designs,
+        best=best,
+        improved_at=_whole(named(run_log.BEST_FOUND_AT)) if best else 0,
+        earlier_designs=_whole(named(run_log.DESIGNS_FOUND)) - len(designs),
+    )
+
+
+def _check(state: State, logged: dict[str, Value]) -> None:
+    """Check that the lists are whole, and the history goes from generation 1 to the parent."""
+    for trace, label in ((state.changes, CHANGES_LISTED), (state.designs, DESIGNS_LISTED)):
+        if len(trace) != logged[label]:
+            raise ValueError(f"{len(trace)} rows, not {logged[label]}: {label}")
+        if (np.diff(trace.generation) <= 0).any():
+            raise ValueError("generations that do not rise")
+    genes, parent = state.changes.genes, state.parent.genes
+    if not len(genes):
+        return
+    if not np.array_equal(genes[-1], parent):
+        raise ValueError("the parent is not the last of the history")
+    if len(genes) < MAX_HISTORY and state.changes.generation[0] != 1:
+        raise ValueError("the history does not begin with generation 1")
+    if state.best and len(genes) > 1 and np.array_equal(genes[-2], parent):
+        raise ValueError("a row of the history is missing")
+
+
+def _whole(value: Value) -> int:
     if isinstance(value, bool) or not isinstance(value, int | float) or value != int(value):
         raise ValueError(f"{value!r} is no whole number")
     return int(value)
 
 
-def _block(source: Source, space: OptionSpace, block: layout.Field) -> Chromosome:
-    area = find_block(source, block)
-    if area is None:
-        raise ValueError(f"no block {block.label!r}")
-    values = [
-        [source.value(area.cell(row, column)) for column in range(area.columns)]
-        for row in range(area.rows)
-    ]
-    return _checked(space, np.array([[_gene(value) for value in row] for row in values]))
-
-
-def _gene(value: object) -> int:
+def _gene(value: Value) -> int:
     return BLANK_GENE if value is None else _whole(value)
 
 
-def _checked(
-    space: OptionSpace, genes: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
-) -> Chromosome:
+def _genes(source: Source, area: Area) -> IntArray:
+    return np.array(
+        [
+            [_gene(source.value(area.cell(row, column))) for column in range(area.columns)]
+            for row in range(area.rows)
+        ]
+    )
+
+
+def _checked(space: OptionSpace, genes: IntArray) -> Chromosome:
     """Make a chromosome, sure that the option space has all its genes: the kernels trust it."""
     shape = (len(space.kinds), 1 + space.gene_slots)
     if genes.shape != shape:
@@ -108,27 +215,19 @@ def _checked(
     return Chromosome(genes)
 
 
-def _trace(source: Source, space: OptionSpace, sheet: str, header_row: int) -> Trace:
+def _trace(source: Source, space: OptionSpace, sheet: str, header_row: int, listed: Value) -> Trace:
     """Read generations and genes from a table; its gene columns are found by their labels."""
     grid = source.grid(sheet)
     header = [str(value) for value in grid.rows[header_row]]
     names = {labels.kind: labels.row_label for labels in layout.KINDS}
     columns = [header.index(names.get(name, name)) for name in gene_columns(space)]
     generations, genes = [], []
-    row = header_row + 1
-    while (value := grid.at(row, 0)) is not None:
-        generations.append(_whole(value))
-        genes.append([_gene(grid.at(row, column)) for column in columns])
-        row += 1
+    for row in range(header_row + 1, header_row + 1 + _whole(listed)):
+        if grid.at(row, 0) is not None:
+            generations.append(_whole(grid.at(row, 0)))
+            genes.append([_gene(grid.at(row, column)) for column in columns])
     shape = (len(genes), len(space.kinds), 1 + space.gene_slots)
-    rows = np.array(genes, dtype=np.int64).reshape(shape)
-    for chromosome in rows:
+    chromosomes = np.array(genes, dtype=np.int64).reshape(shape)
+    for chromosome in chromosomes:
         _checked(space, chromosome)
-    return Trace(np.array(generations, dtype=np.int64), rows)
-
-
-def _real_changes(history: Trace) -> Trace:
-    """Drop the last row of a history where it only repeats the fittest for the last generation."""
-    if len(history) > 1 and np.array_equal(history.genes[-1], history.genes[-2]):
-        return Trace(history.generation[:-1], history.genes[:-1])
-    return history
+    return Trace(np.array(generations, dtype=np.int64), chromosomes)

@@ -4,22 +4,19 @@ from __future__ import annotations
 
 import errno
 import io
-import math
 import os
 import re
 import tempfile
 import zipfile
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from grasp_xl.errors import OutputError, UsageError
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import Source, cells_of, is_blank
-from grasp_xl.workbook.layout import Area, Card, place
+from grasp_xl.workbook.layout import Area, place
 from grasp_xl.workbook.package import Package
 from grasp_xl.workbook.reading import find_sheet
-from grasp_xl.workbook.reading_ga import find_ga_sheet
 from grasp_xl.workbook.stamp import is_untouched
 from grasp_xl.workbook.writing import Filled
 
@@ -53,12 +50,6 @@ def check_place(target: Path, suffix: str, *, force: bool) -> None:
     OutputError
         If the folder is missing or read-only, or the file is held open or no file at all.
     """
-    if target.suffix.lower() != suffix:
-        raise UsageError(
-            f"{target}: found a name that ends in {target.suffix!r}, expected {suffix!r}.",
-            where=str(target),
-            hint=f"Name a file such as {target.stem or 'result'}{suffix}",
-        )
     try:
         _refuse_place(target)
         for pattern in () if force else LOCK_FILES:
@@ -71,6 +62,12 @@ def check_place(target: Path, suffix: str, *, force: bool) -> None:
                 )
     except OSError as error:
         raise _cannot_write(target, error) from error
+    if target.suffix.lower() != suffix:
+        raise UsageError(
+            f"{target}: found a name that ends in {target.suffix!r}, expected {suffix!r}.",
+            where=str(target),
+            hint=f"Name a file such as {target.stem or 'result'}{suffix}",
+        )
 
 
 def _refuse_place(target: Path) -> None:
@@ -178,39 +175,42 @@ def _cannot_write(target: Path, error: OSError) -> OutputError:
 OBJECTS = {
     "charts": ("/charts/chart", b""),
     "pictures": ("/media/", b""),
-    "shapes or text boxes": ("/drawings/drawing", b"<xdr:sp[ >]"),
-    "comments or notes": ("/comments", b"<comment[ >]"),
+    "shapes or text boxes": ("/drawings/drawing", b"<xdr:sp[ />]"),
+    "comments or notes": ("/comments", b"<comment[ />]"),
     "threaded comments": ("/threadedComments/", b"<threadedComment "),
-    "links": ("/worksheets/sheet", b"<hyperlink "),
+    "hyperlinks": ("/worksheets/sheet", b"<hyperlink "),
     "macro modules": ("/vbaProject.bin", b""),
     "pivot tables": ("/pivotTables/pivotTable", b""),
     "links to other workbooks": ("/externalLinks/externalLink", b""),
     "controls": ("/ctrlProps/", b""),
 }
-"""Objects in a workbook: how the names of their parts begin, and what is counted in these."""
+"""Objects in a workbook: what the names of their parts hold, and what is counted in these."""
 
-HEADER_ROWS = {
-    layout.VALID_DESIGNS: layout.TABLE_ROW,
-    layout.HISTORY: layout.HISTORY_ROW,
-    layout.FITNESS_TABLE: 2,
-}
-"""Sheets that are one list, without gaps in its first column."""
-
-REFERENCE = re.compile(r"\$?[A-Z]+\$?\d+")
-"""A formula of ours in an input cell: a goal shows the user-defined chromosome's value."""
+INPUTS = (*layout.PARAMETERS, layout.USER_BLOCK)
+"""Inputs on the sheet ``GA``."""
 
 
-def refuse_losses(
-    target: Path, source: Source, content: bytes, filled: Filled, *, force: bool
-) -> None:
-    """Refuse to replace a workbook that holds something which the new one would not have.
+LOG_COLUMNS = 2
+"""The run log is ours in these columns, however many warnings it has."""
+
+
+def refuse_losses(target: Path, source: Source, content: bytes, ours: Filled) -> None:
+    """Refuse to replace a workbook that holds something which is not ours.
+
+    Parameters
+    ----------
+    target : Path
+    source : Source
+        The workbook to replace.
+    content, ours : bytes, Filled
+        The same workbook as we wrote it, and the cells that we fill.
 
     Raises
     ------
     OutputError
         Naming everything that would be lost.
     """
-    lost = [] if force else losses(source, content, filled)
+    lost = losses(source, content, ours)
     if lost:
         raise OutputError(
             f"{target} holds what the new workbook would not: {'; '.join(lost)}. "
@@ -220,31 +220,39 @@ def refuse_losses(
         )
 
 
-def losses(source: Source, content: bytes, filled: Filled) -> list[str]:
-    """List what a workbook holds that the one to replace it (content, filled cells) does not."""
-    if is_untouched(io.BytesIO(source.package.content)):
-        return []
-    new = Source(Package("the new workbook", content))
-    own = {name: name for name in filled} | {find_sheet(source): layout.OPTION_SPACE}
-    if ga_sheet := find_ga_sheet(source):
-        own[ga_sheet] = layout.GA
-    reshaped = Shape.of(source) != Shape.of(new)
-    found = [
-        f"the sheet {name!r}"
-        for name in source.sheets
-        if name not in own and (source.grid(name).rows or source.grid(name, formulas=True).rows)
-    ]
-    before, after = _objects(source.package.content), _objects(content)
+def filled_cells(source: Source, sheet: str) -> set[tuple[int, int]]:
+    """Return the rows and columns of all cells that hold anything."""
+    grids = (source.grid(sheet, formulas=formulas) for formulas in (False, True))
+    return {
+        (row, column)
+        for grid in grids
+        for row, values in grid.rows.items()
+        for column, value in enumerate(values)
+        if not is_blank(value)
+    }
+
+
+def losses(source: Source, content: bytes, ours: Filled) -> list[str]:
+    """List what a workbook holds beside what we wrote (content, filled cells)."""
+    own = {name: name for name in ours} | {find_sheet(source): layout.OPTION_SPACE}
+    foreign = [name for name in source.sheets if name not in own and filled_cells(source, name)]
+    found = [f"the sheet {name!r}" for name in foreign]
+    now, written = _objects(source.package.content), _objects(content)
     found += [
-        f"{before[what] - after[what]} {what} more"
+        f"{what} ({now[what] - written[what]} more than ours)"
         for what in OBJECTS
-        if before[what] > after[what]
+        if now[what] > written[what]
     ]
-    for sheet, ours in own.items():
+    for sheet, our_name in own.items():
         if sheet in source.sheets:
-            replaced = Replaced(source, sheet, ours, filled[ours], reshaped=reshaped)
-            found += _named("cells", replaced.lost_cells())
-    return found + _named("formulas in", _lost_formulas(source, new, own))
+            cells = sorted(filled_cells(source, sheet) - ours[our_name])
+            strange = [
+                place(sheet, row, column)
+                for row, column in cells
+                if our_name != layout.RUN_LOG or column >= LOG_COLUMNS
+            ]
+            found += _named("cells", strange)
+    return found + _named("formulas in", list(_lost_formulas(source, content, own)))
 
 
 def _objects(content: bytes) -> dict[str, int]:
@@ -254,118 +262,35 @@ def _objects(content: bytes) -> dict[str, int]:
             what: sum(
                 len(re.findall(counted, archive.read(name))) if counted else 1
                 for name in names
-                if start in name
+                if part in name
             )
-            for what, (start, counted) in OBJECTS.items()
+            for what, (part, counted) in OBJECTS.items()
         }
 
 
-def _named(what: str, cells: Iterator[str]) -> list[str]:
-    lost = list(cells)
-    more = f" and {len(lost) - MAX_NAMED} more" if len(lost) > MAX_NAMED else ""
-    return [f"the {what} {', '.join(lost[:MAX_NAMED])}{more}"] if lost else []
+def _named(what: str, cells: list[str]) -> list[str]:
+    more = f" and {len(cells) - MAX_NAMED} more" if len(cells) > MAX_NAMED else ""
+    return [f"the {what} {', '.join(cells[:MAX_NAMED])}{more}"] if cells else []
 
 
-@dataclass(frozen=True, slots=True)
-class Shape:
-    """Sizes that decide where our cells stand: index genes a kind, child cards, corners."""
-
-    gene_slots: int
-    children: int
-    corners: int
-
-    @classmethod
-    def of(cls, source: Source) -> Shape:
-        """Return the sizes of a full workbook; zeros for an export."""
-        names = source.names
-        genes, polygon = names.get(layout.USER_BLOCK.name), names.get(layout.IDEAL_POLYGON)
-        children = sum(CHILD.fullmatch(name) is not None for name in names)
-        return cls(genes.columns - 1 if genes else 0, children, polygon.rows if polygon else 0)
-
-
-@dataclass(frozen=True, slots=True)
-class OldSheet:
-    """A sheet that is to be replaced, and what of it is ours.
-
-    Parameters
-    ----------
-    source : Source
-    sheet, ours : str
-        Its name, and the name that it has in our workbooks.
-    filled : set of (int, int)
-        Rows and columns of the cells of the new sheet.
-    reshaped : bool
-        Whether the new workbook has another shape, so that old cells of ours stand where it has
-        none.
-    """
-
-    source: Source
-    sheet: str
-    ours: str
-    filled: set[tuple[int, int]]
-    reshaped: bool
-
-    def lost_cells(self) -> Iterator[str]:
-        """Yield the places of all cells that somebody else filled."""
-        list_end, last_column = self._list_end(), max(column for _, column in self.filled)
-        cards = self._old_cards()
-        for row, column in sorted(self._cells() - self.filled):
-            listed = layout.is_in_list(self.ours, row, column) and row <= list_end
-            if listed and (self.reshaped or column <= last_column):
-                continue
-            if not any(_holds(card, row, column) for card in cards):
-                yield place(self.sheet, row, column)
-
-    def _cells(self) -> set[tuple[int, int]]:
-        grids = (self.source.grid(self.sheet, formulas=formulas) for formulas in (False, True))
-        return {
-            (row, column)
-            for grid in grids
-            for row, values in grid.rows.items()
-            for column, value in enumerate(values)
-            if not is_blank(value)
-        }
-
-    def _list_end(self) -> float:
-        """Last row that our lists take on the sheet."""
-        if self.ours == layout.OPTION_SPACE:
-            areas = [self.source.names.get(name) for name in LISTS]
-            return max((area.row + area.rows + 1 for area in areas if area), default=math.inf)
-        if self.ours not in HEADER_ROWS:
-            return math.inf
-        row, grid = HEADER_ROWS[self.ours], self.source.grid(self.sheet)
-        while grid.at(row + 1, 0) is not None:
-            row += 1
-        return row
-
-    def _old_cards(self) -> list[Area]:
-        """Places of cards and helper cells that the new workbook has elsewhere."""
-        if not self.reshaped:
-            return []
-        if self.ours == layout.CALC:
-            return [Area(self.sheet, 0, 0, MAX_ROWS, MAX_ROWS)]
-        names = self.source.names.items()
-        genes = [area for name, area in names if CHILD.fullmatch(name) or name in BLOCKS]
-        return [
-            Area(area.sheet, area.row - 2, area.column - 1, CARD_ROWS + 2 * area.columns, area.columns + 1)
-            for area in genes
-            if area.sheet == self.sheet
-        ]
-
-
-def _holds(area: Area, row: int, column: int) -> bool:
-    return (
-        area.row <= row < area.row + area.rows
-        and area.column <= column < area.column + area.columns
-    )
-
-
-def _lost_formulas(source: Source, new: Source, own: dict[str, str]) -> Iterator[str]:
-    """Yield the input cells whose formulas the new workbook has as values only."""
-    for sheet, ours in own.items():
-        if ours not in (layout.OPTION_SPACE, layout.GA) or sheet not in source.sheets:
-            continue
-        kept = new.grid(ours, formulas=True)
-        for row, formulas in source.grid(sheet, formulas=True).rows.items():
-            for column, formula in enumerate(formulas):
-                cell = Area(sheet, row, column)
+def _lost_formulas(source: Source, content: bytes, own: dict[str, str]) -> Iterator[str]:
+    """Yield the inputs that hold somebody's formula, of which only the value would be left."""
+    written = Source(Package("the workbook as we wrote it", content))
+    cells = [
+        cell
+        for field in INPUTS
+        if field.name in source.names
+        for row in cells_of(source.names[field.name])
+        for cell in row
+    ]
+    for sheet, our_name in own.items():
+        if our_name == layout.OPTION_SPACE and sheet in source.sheets:
+            cells += [
+                Area(sheet, row, column)
+                for row, formulas in source.grid(sheet, formulas=True).rows.items()
+                for column in range(len(formulas))
+            ]
+    for cell in cells:
+        ours = Area(own.get(cell.sheet, cell.sheet), cell.row, cell.column)
+        if source.formula(cell) is not None and written.formula(ours) is None:
+            yield cell.where

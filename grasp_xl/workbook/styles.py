@@ -58,7 +58,7 @@ class Style(Enum):
             **_LINE,
         },
     )
-    LABEL = "label", {**_LINE}
+    LABEL = "label", {**_LINE, "indent": 1}
     UNIT = "unit", {"align": "center", "font_color": "#6A6A6A", "italic": True, **_LINE}
     NOTE = "note", {"font_color": "#5A5A5A", "italic": True}
     WARNING = "warning", {"font_color": "#B00020", "bold": True}

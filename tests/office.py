@@ -1,0 +1,150 @@
+"""A headless LibreOffice for tests: opens a workbook, recalculates it, types into it, saves it."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from threading import Timer
+from typing import Any, NoReturn
+
+import pytest
+
+from grasp_xl.workbook.layout import Area
+
+WORKER = Path(__file__).with_name("office_worker.py")
+PYTHON_WITH_UNO = "/usr/bin/python3"
+SECONDS = 120
+"""Time that one command may take; after that LibreOffice hangs, and the session ends."""
+REQUIRE_ALL = "GRASP_XL_REQUIRE_ALL"
+INSTALL = "install libreoffice-calc and python3-uno (Debian packages)"
+
+CellValue = float | str
+Place = Area | str
+"""Cells on a sheet, or a defined name."""
+
+
+def lack(reason: str) -> NoReturn:
+    """Skip a test whose tool is missing, or fail it where every tool must be there (CI)."""
+    if os.environ.get(REQUIRE_ALL):
+        pytest.fail(f"{reason} ({REQUIRE_ALL} is set)")
+    pytest.skip(reason)
+
+
+class OfficeError(RuntimeError):
+    """LibreOffice could not do what it was told, or ended."""
+
+
+class Office:
+    """LibreOffice with one workbook open at a time.
+
+    Parameters
+    ----------
+    profile : Path
+        Folder for its user profile, so that it neither reads nor writes a person's.
+    """
+
+    def __init__(self, profile: Path) -> None:
+        self._worker = subprocess.Popen(  # noqa: S603 (our own script)
+            [PYTHON_WITH_UNO, "-I", str(WORKER), str(profile)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        self._group: int | None = None
+        self.path: Path | None = None
+        """The workbook that is open."""
+        try:
+            self._group = self._answer()
+        except OfficeError:
+            self.end()
+            raise
+
+    def end(self) -> None:
+        """End LibreOffice."""
+        self._worker.communicate(timeout=SECONDS)
+
+    def open(self, path: Path) -> None:
+        """Open a workbook with the values that it stores; close the one before."""
+        self._do("close")
+        self._do("open", path=str(path))
+        self.path = path
+
+    def recalculate(self) -> None:
+        """Calculate every formula from scratch."""
+        self._do("recalculate")
+
+    def formulas(self) -> dict[Area, CellValue]:
+        """Return the value of every formula cell of every sheet; errors as their text."""
+        cells = self._do("formulas")
+        return {Area(sheet, row, column): value for sheet, row, column, value in cells}
+
+    def read(self, place: Place) -> list[list[CellValue]]:
+        """Return the values of an area, row by row; errors as their text, no value as ''."""
+        rows: list[list[CellValue]] = self._do("read", places=[_sent(place)])[0]
+        return rows
+
+    def value(self, place: Place) -> CellValue:
+        """Return the value of one cell."""
+        return self.read(place)[0][0]
+
+    def values(self, places: list[Area]) -> list[CellValue]:
+        """Return the values of many cells."""
+        answers = self._do("read", places=[_sent(place) for place in places])
+        return [rows[0][0] for rows in answers]
+
+    def enter(self, cells: dict[Place, float | str | None]) -> None:
+        """Type into cells, as a person does: what depends on them follows; None empties a cell."""
+        self._do("write", cells=[(_sent(place), value) for place, value in cells.items()])
+
+    def undo(self) -> None:
+        """Put back what was typed over since the workbook was opened."""
+        self._do("undo")
+
+    def save(self, path: Path) -> Path:
+        """Save the workbook as .xlsx."""
+        self._do("save", path=str(path))
+        return path
+
+    def _do(self, command: str, **details: Any) -> Any:  # noqa: ANN401 (JSON)
+        if self._worker.stdin is None:
+            raise AssertionError("started with a pipe")
+        self._worker.stdin.write(json.dumps({"do": command, **details}) + "\n")
+        self._worker.stdin.flush()
+        return self._answer()
+
+    def _answer(self) -> Any:  # noqa: ANN401 (JSON)
+        if self._worker.stdout is None:
+            raise AssertionError("started with a pipe")
+        patience = Timer(SECONDS, self._kill)
+        patience.start()
+        line = self._worker.stdout.readline()
+        patience.cancel()
+        answer = json.loads(line) if line else {"fault": "the worker ended"}
+        if "fault" in answer:
+            raise OfficeError(answer["fault"])
+        return answer["answer"]
+
+    def _kill(self) -> None:
+        if self._group is not None:
+            os.killpg(self._group, signal.SIGKILL)
+
+
+def _sent(place: Place) -> str | tuple[str, str]:
+    return place if isinstance(place, str) else (place.sheet, place.absolute)
+
+
+def run_office(profile: Path) -> Iterator[Office]:
+    """Start LibreOffice, or lack it; end it when its user is done (a fixture's body)."""
+    if not shutil.which("soffice") or not Path(PYTHON_WITH_UNO).exists():
+        lack(f"LibreOffice is not here: {INSTALL}")
+    try:
+        office = Office(profile)
+    except OfficeError as error:
+        lack(f"LibreOffice does not run ({error}): {INSTALL}")
+    yield office
+    office.end()

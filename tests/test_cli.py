@@ -1,0 +1,524 @@
+"""The command line keeps its word: options, JSON, exit codes, and never a traceback."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import openpyxl
+import pytest
+import typer
+from bad_workbooks import tiny_export
+from python_calamine import CalamineWorkbook
+
+from grasp_xl import __version__, cli, commands
+from grasp_xl.search import stop
+from grasp_xl.workbook import cells, reading_ga
+
+SAMPLES = Path(__file__).parents[1] / "workbooks"
+COMMANDS = ("check", "new", "evaluate", "run")
+GRASP_KEYS = {
+    *("suction", "magnets", "genes", "force_n", "weight_n", "fos", "cost", "moment", "deviation"),
+    *("structure", "divergence", "clearance", "centre_of_force", "normalised", "feasible"),
+    *("meets_all_goals", "criterion", "value"),
+}
+RUN_KEYS = {
+    *("best", "proved", "benchmark", "goals", "seconds", "generations", "evaluations", "seed"),
+    *("stop_reason", "output"),
+}
+CHECK_KEYS = {
+    *("ok", "problems", "warnings", "cups", "magnets", "search_space", "weight_n", "max_fos"),
+    "floors",
+}
+ERROR_KEYS = {"error", "where", "hint"}
+FIVE = {"fos", "cost", "moment", "deviation", "structure"}
+FOREVER = "1000000000"
+
+
+@pytest.fixture
+def bracket(tmp_path: Path) -> Path:
+    """Copy the bracket's full workbook to a folder of its own."""
+    return Path(shutil.copy(SAMPLES / "bracket.xlsx", tmp_path))
+
+
+@pytest.fixture
+def export(tmp_path: Path) -> Path:
+    """Write the tiny export: 6 cups, 6 magnets."""
+    path = tmp_path / "tiny.xlsx"
+    tiny_export(path)
+    return path
+
+
+def files(folder: Path) -> list[str]:
+    """Names of all files in a folder."""
+    return sorted(file.name for file in folder.iterdir())
+
+
+class Told:
+    """What one command printed, and its exit code."""
+
+    def __init__(self, capsys: pytest.CaptureFixture[str], *words: object) -> None:
+        capsys.readouterr()
+        self.code = cli.main([str(word) for word in words])
+        self.out, self.err = capsys.readouterr()
+
+    @property
+    def json(self) -> Any:
+        """The object on standard output; nothing else may be there."""
+        return json.loads(self.out)
+
+
+@pytest.fixture
+def gx(capsys: pytest.CaptureFixture[str]) -> Any:
+    """Give the command line as a function that returns what it told."""
+    return lambda *words: Told(capsys, *words)
+
+
+def program(*words: object, **settings: Any) -> subprocess.CompletedProcess[str]:
+    """Run the program in a process of its own."""
+    command = [sys.executable, "-m", "grasp_xl", *map(str, words)]
+    return subprocess.run(command, text=True, check=False, capture_output=True, **settings)  # noqa: S603
+
+
+def named(book: Path, name: str) -> Any:
+    """Read a named cell."""
+    opened = openpyxl.load_workbook(book, data_only=True)
+    sheet, cell = opened.defined_names[name].attr_text.split("!")
+    return opened[sheet.strip("'")][cell].value
+
+
+# --- help ---
+
+
+def test_help_lists_every_command(gx: Any) -> None:
+    told = gx("--help")
+    assert told.code == 0
+    assert all(f" {command} " in told.out for command in COMMANDS)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_of_a_command_has_an_example(gx: Any, command: str) -> None:
+    told = gx(command, "--help")
+    assert told.code == 0
+    assert f"Example: grasp-xl {command} " in told.out
+
+
+def test_help_of_run_states_the_defaults(gx: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
+    told = gx("run", "--help").out
+    for default in ("50000", "5", "4", "user", "3", "2.5", "divergence", "3d", "1"):
+        assert f"(default {default})" in told
+
+
+def test_no_command_shows_the_help_and_is_wrong_usage(gx: Any) -> None:
+    told = gx()
+    assert (told.code, told.err) == (2, "")
+    assert "Usage: grasp-xl" in told.out
+
+
+def test_the_command_line_starts_without_heavy_modules() -> None:
+    """Importing it loads neither numba nor pandas nor openpyxl, nor anything else that is slow."""
+    heavy = ("numba", "pandas", "openpyxl", "numpy", "xlsxwriter", "shapely", "scipy")
+    code = f"import sys, grasp_xl.cli; print([m for m in {heavy} if m in sys.modules])"
+    found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)  # noqa: S603
+    assert found.stdout.strip() == "[]"
+
+
+def test_module_and_version() -> None:
+    """``python -m grasp_xl`` is the program."""
+    told = program("--version")
+    assert (told.returncode, told.stdout, told.stderr) == (0, f"grasp-xl {__version__}\n", "")
+
+
+# --- JSON ---
+
+
+def test_json_of_run_has_the_keys_of_the_specification(gx: Any, bracket: Path) -> None:
+    told = gx("run", bracket, "--generations", 300, "--json")
+    assert told.code == 0
+    assert set(told.json) == RUN_KEYS
+    for name in ("best", "benchmark"):
+        assert set(told.json[name]) == GRASP_KEYS
+        assert set(told.json[name]["normalised"]) == FIVE
+    assert set(told.json["goals"]) == FIVE
+    assert told.json["output"] == str(bracket.with_name("bracket-result.xlsx"))
+    assert Path(told.json["output"]).is_file()
+    assert (told.json["generations"], told.json["stop_reason"]) == (300, "generations")
+
+
+def test_json_of_evaluate_is_a_grasp(gx: Any, bracket: Path) -> None:
+    told = gx("evaluate", bracket, "--cups", "1,9,20", "--magnets", "3", "--json").json
+    assert set(told) == GRASP_KEYS
+    assert (told["suction"], told["magnets"]) == ([1, 9, 20], [3])
+    assert told["genes"] == [[3, 1, 9, 20, 1, 1], [1, 3, 1, 1, 1, 1]]
+    assert told["fos"] == pytest.approx((3 * 69 + 130) / told["weight_n"])
+
+
+def test_clearance_of_one_element_is_null(gx: Any, tmp_path: Path) -> None:
+    export = tmp_path / "few.xlsx"
+    tiny_export(export, {"B11": 0})
+    told = gx("evaluate", export, "--cups", "", "--magnets", "1", "--fos", "1", "--json").json
+    assert told["clearance"] is None
+    assert told["structure"] == 0
+
+
+def test_json_of_check_has_the_keys_of_the_specification(gx: Any, export: Path) -> None:
+    told = gx("check", export, "--json")
+    assert told.code == 0
+    assert set(told.json) == CHECK_KEYS
+    assert set(told.json["floors"]) == FIVE - {"fos"}
+    assert (told.json["ok"], told.json["problems"]) == (True, [])
+    assert (told.json["cups"], told.json["magnets"]) == (6, 6)
+
+
+def test_check_lists_every_problem(gx: Any, tmp_path: Path) -> None:
+    export = tmp_path / "wrong.xlsx"
+    tiny_export(export, {"B5": -1, "D6": "here", "L1": 2})
+    told = gx("check", export, "--json")
+    assert told.code == 3
+    assert set(told.json) == CHECK_KEYS | ERROR_KEYS
+    problems = told.json["problems"]
+    assert {p["where"] for p in problems} == {f"Option Space!{c}" for c in ("B5", "D6", "L1")}
+    assert all(set(p) == {"where", "found", "expected", "hint"} for p in problems)
+    plain = gx("check", export)
+    assert (plain.code, plain.out) == (3, "")
+    assert len(plain.err.splitlines()) == 3
+
+
+def test_warnings_go_to_standard_error_and_leave_the_json_alone(gx: Any, tmp_path: Path) -> None:
+    export = tmp_path / "free.xlsx"
+    tiny_export(export, {"B14": 0, "B22": 0})  # free of charge: no cost to divide by
+    told = gx("run", export, "--generations", 5, "--json")
+    assert told.json["goals"]["cost"] is None
+    assert "cost is left out" in told.err
+
+
+# --- errors ---
+
+WRONG = [
+    "--nonsense",
+    "frobnicate",
+    "run",
+    "run FILE --gnerations 5",
+    "run FILE --generations",
+    *(f"run FILE --generations {word}" for word in ("abc", "1.5", "-1", "nan", "1e10")),
+    *(f"run FILE --seed {word}" for word in ("-1", "9007199254740993")),
+    *(f"run FILE --children {word}" for word in ("1", "51")),
+    *(f"run FILE --stall {word}" for word in ("0", "inf")),
+    *(f"run FILE {option} nan" for option in ("--one-in", "--target", "--time-limit")),
+    *(f"run FILE {option} inf" for option in ("--one-in", "--target", "--time-limit")),
+    "run FILE --one-in 0.5",
+    "run FILE --time-limit -1",
+    "run FILE --start here",
+    "run FILE --in-place -o OTHER",
+    "run FILE -o FILE",
+    "new FILE -o FILE",
+    "new FILE",
+    *(f"check FILE --fos {word}" for word in ("0", "-1", "nan", "inf", "1e308", "three")),
+    *(f"check FILE --clearance {word}" for word in ("0", "nan", "1e308")),
+    *(f"check FILE --density-ratio {word}" for word in ("-1", "inf", "1e308")),
+    *(f"check FILE --criterion {word}" for word in ("beauty", "cost+")),
+    "check FILE --moment-arm 4d",
+    *(f"evaluate FILE --goals {word}" for word in ("1,2,3", "1,2,3,4,5", "0,1,1,1", "1,nan,1,1")),
+    *(f"evaluate FILE --goals {word}" for word in ("1e-308,1,1,1", "1e308,1,1,1", "1,,1,1")),
+    *(f"evaluate FILE --magnets 1 --cups {word}" for word in ("0", "29", "-1", "1,1", "1,2,")),
+    *(f"evaluate FILE --magnets 1 --cups {word}" for word in ("a", "1.5", "1,2,3,4,5,6", "9" * 30)),
+    "evaluate FILE --cups 1",
+]
+
+
+@pytest.mark.parametrize("words", WRONG)
+def test_wrong_usage_is_one_sentence_and_exit_code_2(gx: Any, bracket: Path, words: str) -> None:
+    names = {"FILE": str(bracket), "OTHER": str(bracket.with_name("other.xlsx"))}
+    arguments = [names.get(word, word) for word in words.split()]
+    before = bracket.read_bytes()
+    told = gx(arguments[0], "--json", *arguments[1:])
+    assert told.code == 2
+    assert set(told.json) == ERROR_KEYS
+    assert told.json["error"]
+    assert told.json["hint"]
+    plain = gx(*arguments)
+    assert (plain.code, plain.out) == (2, "")
+    assert told.json["error"] in plain.err
+    assert files(bracket.parent) == [bracket.name]
+    assert bracket.read_bytes() == before
+
+
+@pytest.mark.parametrize("command", [("evaluate",), ("run",), ("new", "-o", "new.xlsx")])
+def test_bad_input_is_exit_code_3_and_writes_nothing(
+    gx: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: tuple[str, ...]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for content in (None, b"", b"no workbook"):
+        file = tmp_path / "wrong.xlsx"
+        if content is not None:
+            file.write_bytes(content)
+        told = gx(command[0], file, *command[1:], "--json")
+        assert told.code == 3
+        assert set(told.json) == ERROR_KEYS
+        assert told.json["where"] == str(file)
+        assert not (set(files(tmp_path)) - {"wrong.xlsx"})
+
+
+def test_what_no_grasp_can_meet_is_exit_code_4_at_once(gx: Any, bracket: Path) -> None:
+    """Also where a user-defined grasp is there to start from."""
+    for command in ("check", "run"):
+        for option, value in (("--fos", "8"), ("--clearance", "500")):
+            told = gx(command, bracket, option, value, "--json")
+            assert told.code == 4
+            assert set(told.json) >= ERROR_KEYS
+            assert "ower the" in told.json["hint"]
+    assert files(bracket.parent) == [bracket.name]
+
+
+def test_a_grasp_below_the_constraints_is_shown_nevertheless(gx: Any, bracket: Path) -> None:
+    told = gx("evaluate", bracket, "--fos", "8", "--json")
+    assert told.code == 0
+    assert told.json["feasible"] is False
+
+
+def test_ctrl_c_before_a_search_is_exit_code_130(
+    gx: Any, bracket: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(commands, "check", interrupted)
+    told = gx("check", bracket, "--json")
+    assert told.code == 130
+    assert told.json["error"] == "Interrupted; nothing was written."
+
+
+def test_debug_shows_what_was_raised(gx: Any, tmp_path: Path) -> None:
+    with pytest.raises(Exception, match="no such file"):
+        gx("check", tmp_path / "none.xlsx", "--debug")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no /dev/full")
+def test_output_that_nobody_can_take_is_no_traceback(bracket: Path) -> None:
+    """Neither a full disk behind standard output, nor a closed pipe, nor an alphabet too small."""
+    with Path("/dev/full").open("w") as full:
+        command = [sys.executable, "-m", "grasp_xl", "check", str(bracket)]
+        told = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)  # noqa: S603
+        assert (told.returncode, "Traceback" in told.stderr) == (3, False)
+        assert "No space left" in told.stderr
+    reader, writer = os.pipe()
+    os.close(reader)
+    told = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, check=False)  # noqa: S603
+    os.close(writer)
+    assert (told.returncode, told.stderr) == (0, "")
+    greek = bracket.rename(bracket.with_name("λαβή.xlsx"))
+    told = program("check", greek, env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    assert (told.returncode, told.stderr) == (0, "")
+
+
+# --- options ---
+
+
+def test_options_beat_the_workbook_which_beats_the_defaults(
+    gx: Any, export: Path, tmp_path: Path
+) -> None:
+    said = {"--fos": "2", "--seed": "5", "--criterion": "cost", "--goals": "90,8000,70,500"}
+    words = [word for pair in said.items() for word in pair]
+    full = tmp_path / "full.xlsx"
+    assert gx("new", export, "-o", full, *words).code == 0
+
+    def settled(file: Path, *options: str) -> tuple[object, ...]:
+        told = gx("run", file, "--generations", "3", "--json", "--force", *options).json
+        return (
+            *(told["goals"]["fos"], told["seed"], told["benchmark"]["criterion"]),
+            told["goals"]["deviation"],
+        )
+
+    default = settled(export)
+    assert default[:3] == (3, 1, "divergence")
+    assert settled(full) == (2, 5, "cost", 70)
+    assert settled(full, "--fos", "2.5", "--seed", "6") == (2.5, 6, "cost", 70)
+    assert settled(full, "--criterion", "moment", "--goals", "1,1,1,1") == (2, 5, "moment", 1)
+    assert settled(export, *words) == (2, 5, "cost", 70)
+
+
+def test_every_option_of_run_reaches_the_workbook(gx: Any, bracket: Path) -> None:
+    words = "--generations 12 --children 3 --one-in 2.5 --no-elitism --start random --fos 2.5"
+    words += " --clearance 50 --density-ratio 2 --criterion cost+moment --moment-arm plan --seed 9"
+    result = bracket.with_name("result.xlsx")
+    assert gx("run", bracket, "-o", result, *words.split(), "--goals", "1,2,3,4").code == 0
+    expected = {"Generations": 12, "Children": 3, "MutationOneIn": 2.5, "Elitism": 0}
+    expected |= {"UserStart": 0, "FoSGoal": 2.5, "MinClearance": 50, "DensityRatio": 2}
+    expected |= {"FitnessCriterion": "cost+moment", "MomentArm": "plan", "Seed": 9}
+    expected |= {"CostGoal": 1, "MomentGoal": 2, "DeviationGoal": 3, "StructureGoal": 4}
+    assert {name: named(result, name) for name in expected} == expected
+
+
+def test_the_grasp_of_the_options_is_the_user_defined_one(gx: Any, bracket: Path) -> None:
+    words = ("--cups", "1,9,20", "--magnets", "3,80", "--generations", "2", "--json")
+    benchmark = gx("run", bracket, *words).json["benchmark"]
+    assert (benchmark["suction"], benchmark["magnets"]) == ([1, 9, 20], [3, 80])
+    assert gx("evaluate", bracket.with_name("bracket-result.xlsx"), "--json").json == benchmark
+
+
+def test_bounds_of_options_are_those_of_the_workbook() -> None:
+    assert cells.MAX_NUMBER == reading_ga.MAX_GENERATIONS == cli.MOST
+    assert cells.MIN_DISTANCE == cli.LEAST_ABOVE_0
+    assert (reading_ga.MAX_CHILDREN, reading_ga.MAX_SEED) == (cli.MOST_CHILDREN, cli.MOST_SEED)
+
+
+def test_common_options_are_known_to_every_command() -> None:
+    common = {"--goals", "--fos", "--clearance", "--density-ratio", "--criterion", "--moment-arm"}
+    common |= {"--seed", "--json", "--quiet"}
+    parsers: Any = typer.main.get_command(cli.app)
+    for name in COMMANDS:
+        assert common <= {word for option in parsers.commands[name].params for word in option.opts}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_quiet_prints_nothing(gx: Any, export: Path, command: str) -> None:
+    output = ("-o", export.with_name("quiet.xlsx")) if command in ("new", "run") else ()
+    told = gx(command, export, *output, "--quiet")
+    assert (told.code, told.out, told.err) == (0, "", "")
+
+
+# --- when a run stops ---
+
+
+def history(gx: Any, book: Path, *words: object) -> list[dict[str, str]]:
+    """Run and read every change of the fittest."""
+    file = book.with_suffix(".csv")
+    told = gx("run", book, "--force", "--history", file, "--json", *words)
+    assert told.code == 0
+    return list(csv.DictReader(file.read_text(encoding="utf-8").splitlines()))
+
+
+def test_history_file_has_all_changes(gx: Any, bracket: Path) -> None:
+    """One row a change and the last generation; nothing changes between; values are exact."""
+    rows = history(gx, bracket, "--generations", 2000)
+    generations = [int(row["generation"]) for row in rows]
+    assert (generations[0], generations[-1]) == (1, 2000)
+    assert generations == sorted(set(generations))
+    book = openpyxl.load_workbook(bracket.with_name("bracket-result.xlsx"), data_only=True)
+    table = [row[0] for row in book["History"].iter_rows(min_row=4, max_col=1, values_only=True)]
+    assert [value for value in table if value is not None] == generations
+    last = gx("evaluate", bracket, *_grasp(rows[-1]), "--json").json
+    assert float(rows[-1]["divergence"]) == pytest.approx(last["divergence"], rel=1e-12)
+
+
+def _grasp(row: dict[str, str]) -> list[str]:
+    genes = {"--cups": ("suction", "S"), "--magnets": ("magnets", "M")}
+    words = []
+    for option, (count, slot) in genes.items():
+        indices = [row[f"{slot}{number}"] for number in range(1, 1 + int(row[count]))]
+        words += [option, ",".join(indices)]
+    return words
+
+
+@pytest.mark.parametrize("chunk", [stop.CHUNK, 7])
+def test_target_stops_at_the_very_generation(
+    gx: Any, bracket: Path, monkeypatch: pytest.MonkeyPatch, chunk: int
+) -> None:
+    """However many generations run between two looks at the rules."""
+    rows = history(gx, bracket, "--generations", 1000)
+    reached = rows[len(rows) // 2]
+    monkeypatch.setattr(stop, "CHUNK", chunk)
+    told = gx("run", bracket, "--target", reached["divergence"], "--json").json
+    assert (told["stop_reason"], told["generations"]) == ("target", int(reached["generation"]))
+    assert told["best"]["value"] <= float(reached["divergence"])
+
+
+@pytest.mark.parametrize("chunk", [stop.CHUNK, 7])
+def test_stall_stops_at_the_very_generation(
+    gx: Any, bracket: Path, monkeypatch: pytest.MonkeyPatch, chunk: int
+) -> None:
+    monkeypatch.setattr(stop, "CHUNK", chunk)
+    told = gx("run", bracket, "--stall", 120, "--json").json
+    assert told["stop_reason"] == "stall"
+    found_at = named(Path(told["output"]), "BestFoundAt")
+    assert told["generations"] == found_at + 120
+    longer = [int(row["generation"]) for row in history(gx, bracket, "--generations", 1000)]
+    gaps = zip([0, *longer], longer, strict=False)
+    assert found_at == next(before for before, after in gaps if after - before > 120)
+
+
+@pytest.mark.parametrize(
+    ("limits", "reason"),
+    [
+        ("--stall 50 --target 1.1 --time-limit 60 --generations 40", "generations"),
+        ("--stall 50 --target 1.1 --time-limit 60 --generations 90000", "stall"),
+        ("--stall 90000 --target 3.9 --time-limit 60 --generations 90000", "target"),
+        ("--stall 90000 --target 1.1 --time-limit 0 --generations 90000", "time"),
+    ],
+)
+def test_of_several_rules_the_first_one_stops(
+    gx: Any, bracket: Path, limits: str, reason: str
+) -> None:
+    assert gx("run", bracket, *limits.split(), "--json").json["stop_reason"] == reason
+
+
+def test_a_time_limit_is_kept(gx: Any, bracket: Path) -> None:
+    began = time.perf_counter()
+    told = gx("run", bracket, "--generations", FOREVER, "--time-limit", "0.3", "--json").json
+    assert told["stop_reason"] == "time"
+    assert told["generations"] > 0
+    assert time.perf_counter() - began < 10
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no terminals of this kind")
+def test_ctrl_c_writes_the_best_so_far(bracket: Path) -> None:
+    """SIGINT in mid-run: the workbook is written, marked, and the exit code is 130.
+
+    A terminal shows generation, best value, rate and time left meanwhile.
+    """
+    import pty  # not on Windows
+
+    terminal, screen = pty.openpty()
+    command = [sys.executable, "-m", "grasp_xl", "run", str(bracket)]
+    command += ["--generations", FOREVER, "--json"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=screen, text=True) as running:  # noqa: S603
+        shown = ""
+        while "left" not in shown:
+            shown += os.read(terminal, 4096).decode(errors="replace")
+        running.send_signal(signal.SIGINT)
+        out, _ = running.communicate(timeout=60)
+    os.close(screen)
+    os.close(terminal)
+    for word in ("Generation", "best 3.", "/s", "s left"):
+        assert word in shown
+    told = json.loads(out)
+    assert running.returncode == 130
+    assert told["stop_reason"] == "interrupted"
+    assert told["best"]["divergence"] < 4
+    assert "interrupted" in named(Path(told["output"]), "StopReason").lower()
+    assert files(bracket.parent) == ["bracket-result.xlsx", "bracket.xlsx"]
+
+
+# --- the same again ---
+
+
+def cell_values(book: Path) -> dict[str, list[list[Any]]]:
+    """Read all values of a workbook, times aside."""
+    opened = CalamineWorkbook.from_path(book)
+    sheets = {name: opened.get_sheet_by_name(name).to_python() for name in opened.sheet_names}
+    times = ("Started", "Ended", "Seconds of search")
+    sheets["Run Log"] = [row for row in sheets["Run Log"] if row[0] not in times]
+    return sheets
+
+
+@pytest.mark.parametrize("options", [(), ("--no-elitism", "--start", "random")])
+def test_same_seed_gives_the_same_workbook_bit_for_bit(
+    gx: Any, bracket: Path, options: tuple[str, ...]
+) -> None:
+    """All cell values are equal, times aside; with another seed they are not."""
+    books = [bracket.with_name(f"{name}.xlsx") for name in ("one", "two", "other")]
+    for book, seed in zip(books, (7, 7, 8), strict=True):
+        told = gx("run", bracket, "-o", book, "--seed", seed, "--generations", 400, *options)
+        assert told.code == 0
+    assert cell_values(books[0]) == cell_values(books[1])
+    states = [named(book, "RandomState") for book in books]
+    assert states[0] == states[1] != states[2]

@@ -1,0 +1,312 @@
+"""``--continue`` goes on as if the run had never stopped, and refuses when it could not."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import openpyxl
+import pytest
+from bad_workbooks import tiny_export
+from python_calamine import CalamineWorkbook
+
+from grasp_xl import cli
+from grasp_xl.workbook import run_log
+from grasp_xl.workbook.book import read_book
+
+SAMPLES = Path(__file__).parents[1] / "workbooks"
+OF_THIS_RUN = ("Input file", "Input SHA-256", "Started", "Ended", "Seconds of search")
+"""What the Run Log says of one call of the program."""
+
+
+@pytest.fixture
+def bracket(tmp_path: Path) -> Path:
+    """Copy the bracket's full workbook to a folder of its own."""
+    return Path(shutil.copy(SAMPLES / "bracket.xlsx", tmp_path))
+
+
+@pytest.fixture
+def export(tmp_path: Path) -> Path:
+    """Write the tiny export."""
+    path = tmp_path / "tiny.xlsx"
+    tiny_export(path)
+    return path
+
+
+def run(file: Path, *words: object) -> int:
+    """Run without a word."""
+    return cli.main(["run", str(file), "--quiet", *map(str, words)])
+
+
+def files(folder: Path) -> list[str]:
+    """Names of all files in a folder."""
+    return sorted(file.name for file in folder.iterdir())
+
+
+def in_parts(file: Path, limits: list[int], *options: str, in_place: bool = False) -> Path:
+    """Run to each of the limits, each time going on from the last workbook."""
+    before = file
+    for number, limit in enumerate(limits):
+        part = before if in_place and number else file.with_name(f"part{number}.xlsx")
+        words = ("--in-place",) if in_place and number else ("-o", part)
+        words += ("--continue",) if number else options
+        assert run(before, *words, "--generations", limit) == 0
+        before = part
+    return before
+
+
+def at_once(file: Path, limit: int, *options: str) -> Path:
+    """Run without a stop."""
+    whole = file.with_name("whole.xlsx")
+    assert run(file, "-o", whole, "--generations", limit, *options) == 0
+    return whole
+
+
+def content(book: Path) -> dict[str, list[list[Any]]]:
+    """Read all values of a workbook but those of OF_THIS_RUN."""
+    opened = CalamineWorkbook.from_path(book)
+    sheets = {name: opened.get_sheet_by_name(name).to_python() for name in opened.sheet_names}
+    sheets["Run Log"] = [row for row in sheets["Run Log"] if row[0] not in OF_THIS_RUN]
+    return sheets
+
+
+def edit(book: Path, change: Callable[[openpyxl.Workbook], object]) -> None:
+    """Change a workbook with openpyxl, which loses all cached values of formulas."""
+    opened = openpyxl.load_workbook(book)
+    change(opened)
+    opened.save(book)
+
+
+def cell_of(opened: openpyxl.Workbook, name: str, row: int = 0, column: int = 0) -> Any:
+    """Find a cell of a named area."""
+    sheet, cells = opened.defined_names[name].attr_text.replace("$", "").split("!")
+    return opened[sheet.strip("'")][cells.split(":")[0]].offset(row, column)
+
+
+# --- the same course ---
+
+
+@pytest.mark.parametrize("start", ["user", "random"])
+def test_splits_change_nothing(bracket: Path, start: str) -> None:
+    """History, valid designs, last cards, matrix, random state, best: every cell is the same."""
+    parts = in_parts(bracket, [1, 7, 4096, 4097, 20_000, 30_000], "--start", start)
+    assert content(parts) == content(at_once(bracket, 30_000, "--start", start))
+
+
+@pytest.mark.parametrize("start", ["user", "random"])
+@pytest.mark.parametrize("limits", [[1, 7, 300], [4096, 4097]])
+def test_splits_change_nothing_without_elitism(export: Path, start: str, limits: list[int]) -> None:
+    options = ("--no-elitism", "--start", start, "--seed", "3")
+    assert content(in_parts(export, limits, *options)) == content(
+        at_once(export, limits[-1], *options)
+    )
+
+
+def test_in_place_splits_change_nothing(bracket: Path) -> None:
+    parts = in_parts(bracket, [5, 800, 900, 2500], in_place=True)
+    assert content(parts) == content(at_once(bracket, 2500))
+    assert files(bracket.parent) == ["bracket.xlsx", "part0.xlsx", "whole.xlsx"]
+
+
+def test_a_start_without_a_feasible_parent_goes_on_in_the_same_way(bracket: Path) -> None:
+    """As long as no child passes, each generation draws a new parent."""
+    options = ("--cups", "1", "--magnets", "2", "--fos", "5.5", "--seed", "2")
+    assert content(in_parts(bracket, [1, 2, 40, 600], *options)) == content(
+        at_once(bracket, 600, *options)
+    )
+
+
+def test_a_workbook_without_a_run_yet_goes_on_from_generation_0(export: Path) -> None:
+    ready = export.with_name("ready.xlsx")
+    assert cli.main(["new", str(export), "-o", str(ready), "--quiet"]) == 0
+    assert run(ready, "--continue", "--generations", 50) == 0
+    assert content(ready.with_name("ready-result.xlsx")) == content(at_once(export, 50))
+
+
+def test_nothing_more_to_do_leaves_all_as_it_was(bracket: Path) -> None:
+    """The last cards and the mutation matrix, too."""
+    whole = at_once(bracket, 500)
+    assert run(whole, "--continue", "--generations", 500) == 0
+    assert content(whole.with_name("whole-result.xlsx")) == content(whole)
+
+
+def test_a_run_that_the_clock_stopped_goes_on_in_the_same_way(bracket: Path) -> None:
+    part = bracket.with_name("part.xlsx")
+    assert run(bracket, "-o", part, "--generations", 10**9, "--time-limit", 0.05) == 0
+    limit = read_book(part).saved_run().state.generation + 500
+    assert run(part, "--in-place", "--continue", "--generations", limit) == 0
+    assert content(part) == content(at_once(bracket, limit))
+
+
+def test_only_the_generations_asked_for_may_differ(bracket: Path) -> None:
+    part = in_parts(bracket, [60])
+    assert run(part, "--continue", "--generations", 70, "--stall", 10**6, "--target", -1) == 0
+
+
+# --- saved again by other programs ---
+
+
+def test_it_goes_on_after_openpyxl_saved_the_workbook(bracket: Path) -> None:
+    """All cached values of formulas are lost then."""
+    part = in_parts(bracket, [400])
+    edit(part, lambda _: None)
+    assert run(part, "--in-place", "--continue", "--generations", 900) == 0
+    assert content(part) == content(at_once(bracket, 900))
+
+
+@pytest.mark.skipif(
+    shutil.which("soffice") is None and "GRASP_XL_REQUIRE_ALL" not in os.environ,
+    reason="LibreOffice (soffice) is not installed",
+)
+def test_it_goes_on_after_libreoffice_saved_the_workbook(bracket: Path) -> None:
+    """Numbers have 15 digits then; the course is the same."""
+    part = in_parts(bracket, [400])
+    folder = part.with_name("saved")
+    profile = (bracket.parent / "profile").as_uri()
+    subprocess.run(  # noqa: S603
+        [
+            *("soffice", f"-env:UserInstallation={profile}", "--headless"),
+            *("--convert-to", "xlsx", "--outdir", str(folder), str(part)),
+        ],
+        check=True,
+        capture_output=True,
+        timeout=120,
+    )
+    saved = folder / part.name
+    assert run(saved, "-o", bracket.with_name("on.xlsx"), "--continue", "--generations", 900) == 0
+    states = [
+        read_book(book).saved_run().state
+        for book in (bracket.with_name("on.xlsx"), at_once(bracket, 900))
+    ]
+    for trace in ("changes", "designs"):
+        one, other = (getattr(state, trace) for state in states)
+        assert one.generation.tolist() == other.generation.tolist()
+        assert one.genes.tolist() == other.genes.tolist()
+    assert states[0].random_state == states[1].random_state
+    assert states[0].best == states[1].best
+    assert run(saved, "--in-place", "--generations", 5) == 0  # and nothing of it is foreign
+
+
+# --- refused ---
+
+CHANGES: dict[str, tuple[str, object]] = {
+    "a footprint": ("SuctionLocations", 99.5),
+    "a corner": ("ApproximationPolygon", 170),
+    "the scale factor": ("ScaleFactor", 0.7),
+    "the mass": ("PartMass", 8000),
+    "the centroid": ("CentroidX", 1),
+    "a force": ("SuctionForce", 70),
+    "a price": ("MagnetPrice", 31),
+    "a minimum": ("SuctionMin", 0),
+    "a maximum": ("MagnetMax", 4),
+    "the benchmark": ("UserChromosome", 1),
+    "a goal": ("CostGoal", 99),
+}
+OPTIONS = (
+    *("--seed 2", "--one-in 5", "--children 4", "--no-elitism", "--start random"),
+    *("--fos 2.9", "--clearance 47", "--density-ratio 2.4", "--moment-arm plan"),
+    *("--criterion cost", "--goals 1,2,3,4", "--cups 1,2 --magnets 3"),
+)
+
+
+@pytest.fixture(scope="module")
+def part_way(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Run the tiny export part of the way, from a grasp of the designer's."""
+    file = tmp_path_factory.mktemp("part") / "tiny.xlsx"
+    tiny_export(file)
+    return in_parts(file, [60], "--cups", "2,6", "--magnets", "3,4")
+
+
+@pytest.mark.parametrize("what", CHANGES)
+def test_it_is_refused_where_an_input_changed(
+    part_way: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], what: str
+) -> None:
+    book = Path(shutil.copy(part_way, tmp_path))
+    name, value = CHANGES[what]
+    edit(book, lambda opened: setattr(cell_of(opened, name), "value", value))
+    before = book.read_bytes()
+    assert run(book, "--continue", "--in-place", "--generations", 90) == 3
+    assert "inputs that changed since its run" in capsys.readouterr().err
+    assert book.read_bytes() == before
+    assert files(tmp_path) == [book.name]
+
+
+@pytest.mark.parametrize("options", OPTIONS)
+def test_it_is_refused_where_an_option_changes_an_input(
+    part_way: Path, capsys: pytest.CaptureFixture[str], options: str
+) -> None:
+    before = files(part_way.parent)
+    assert run(part_way, "--continue", *options.split()) == 3
+    assert "inputs that changed since its run" in capsys.readouterr().err
+    assert files(part_way.parent) == before
+
+
+def test_the_refusal_names_the_parameters_that_changed(
+    part_way: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    options = ("--seed", 2, "--one-in", 5, "--fos", 2.5, "--criterion", "cost")
+    assert run(part_way, "--continue", *options) == 3
+    told = capsys.readouterr().err
+    for change in ("Seed 2, not 1", "1-in-n mutation 5, not 4", "FoS goal 2.5, not 3"):
+        assert change in told
+    assert "Generations" not in told
+
+
+def test_a_workbook_without_a_run_cannot_go_on(
+    export: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(export, "--continue") == 3
+    assert "no run" in capsys.readouterr().err
+    assert files(export.parent) == [export.name]
+
+
+def sort_history(opened: openpyxl.Workbook) -> None:
+    """Put the last change first."""
+    for column in range(1, 20):
+        first, second = (opened["History"].cell(row, column) for row in (4, 5))
+        first.value, second.value = second.value, first.value
+
+
+def write(name: str, value: object) -> Callable[[openpyxl.Workbook], None]:
+    """Make an edit of a named cell."""
+    return lambda opened: setattr(cell_of(opened, name), "value", value)
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        sort_history,
+        lambda opened: opened["History"].delete_rows(4),
+        lambda opened: opened["Valid Designs"].delete_rows(9, 50),
+        lambda opened: opened["History"].delete_cols(8),
+        write("ParentChromosome", 5),
+        write("Child2", "two"),
+        write("MutationMatrix", 0.5),
+        write(run_log.GENERATIONS_DONE, "many"),
+        write(run_log.GENERATIONS_DONE, 1.5),
+        write(run_log.EVALUATIONS, None),
+        write(run_log.BEST_GRASP, "[[1, 2], [3]]"),
+        write(run_log.BEST_GRASP, "[[9, 1, 2, 3, 4, 5], [1, 2, 3, 4, 5, 6]]"),
+        write(run_log.BEST_GRASP, "genes"),
+        write(run_log.RANDOM_STATE, "state"),
+        write(run_log.RANDOM_STATE, "{}"),
+        write(run_log.RANDOM_STATE, "[" * 5000),
+        write(
+            run_log.RANDOM_STATE,
+            '{"bit_generator":"PCG64","state":{"state":-1,"inc":1e999},"has_uint32":0,"uinteger":0}',
+        ),
+        write(run_log.INPUTS_HASH, None),
+    ],
+)
+def test_a_run_that_was_tampered_with_is_refused(
+    part_way: Path, tmp_path: Path, damage: Callable[[openpyxl.Workbook], object]
+) -> None:
+    """Each in a sentence: a list that was sorted or cut, genes that are none, no random state."""
+    book = Path(shutil.copy(part_way, tmp_path))
+    edit(book, damage)
+    assert run(book, "--continue", "-o", tmp_path / "out.xlsx") == 3
+    assert files(tmp_path) == [book.name]

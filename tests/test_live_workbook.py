@@ -1,0 +1,501 @@
+"""The living workbook: what LibreOffice calculates is what the engine says, also after typing."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import openpyxl
+import pytest
+from live_cases import CRITERIA, PLACES, Case, random_case
+from office import CellValue, Office, Place, run_office
+
+from grasp_xl import commands
+from grasp_xl.chromosome import Chromosome
+from grasp_xl.grasp import Grasp, evaluate
+from grasp_xl.rules import Rules
+from grasp_xl.search.stop import Generations
+from grasp_xl.task import Parameters, Task
+from grasp_xl.workbook import layout
+from grasp_xl.workbook.book import read_book
+from grasp_xl.workbook.calc_sheet import CalcBlock
+from grasp_xl.workbook.designs_sheet import PICK_NAME, PICK_ROW
+from grasp_xl.workbook.layout import (
+    APPROXIMATION_COLUMN,
+    FIRST_LOCATION_ROW,
+    GA,
+    GOAL_NAMES,
+    GRASP,
+    KINDS,
+    OPTION_SPACE,
+    POLYGON_HEADER_ROW,
+    TABLE_ROW,
+    VALID_DESIGNS,
+    Area,
+    Card,
+    Layout,
+)
+
+SAMPLES = Path(__file__).parents[1] / "workbooks"
+NAMES = ("bracket", "door_frame", "panel", "tunnel_cover")
+CASES = 200
+ACCURACY = 1e-9
+"""Relative; absolute below 1 mm, N, N-mm, $ or mm², where the rounding of larger numbers remains."""
+
+PLAN = Layout(gene_slots=5, children=5)
+CARDS = {
+    **{f"Child{number + 1}": PLAN.card(number) for number in range(PLAN.children)},
+    "WhatIf": PLAN.what_if,
+}
+USER = PLAN.block_genes(layout.USER_BLOCK)
+CARD_ROWS, CARD_COLUMNS = 43, 7
+GA_CELLS = Area(GA, 0, 0, PLAN.card_row + CARD_ROWS, PLAN.what_if.column + CARD_COLUMNS)
+STATUS, DIFFERENCE = (35, 0), (42, 5)
+NOT_AVAILABLE = "#N/A"
+BAD_COUNT = "A total is out of range: type a whole number from Min. to Max. of its kind."
+BAD_INDEX = "An active index is not in the option space: type a whole number from 1 to its total."
+BAD_INPUT = "An input is empty or no number: look at the part, the elements and the parameters."
+NO_GOAL = "A goal is empty or no number: look at the goals and the user-defined chromosome."
+
+FUNCTIONS = {
+    *("ABS", "AND", "COLUMN", "COUNT", "IF", "INDEX", "INT", "ISBLANK", "ISNUMBER", "LEFT", "MAX"),
+    *("MIN", "N", "NA", "NOT", "ROUND", "ROW", "SEARCH", "SQRT", "SUM", "SUMPRODUCT", "SUMSQ"),
+    "TRIM",
+}
+"""All that formulas may use: each is in Excel 2016 and LibreOffice 7.4, and none is volatile."""
+MAX_FORMULA = 8192
+"""Characters of a formula that Excel takes."""
+
+
+# --- what a file stores, and what LibreOffice makes of it ---
+
+
+def agrees(stored: CellValue, shown: CellValue) -> bool:
+    """Tell whether two values are the same; numbers to the accuracy."""
+    if isinstance(stored, str) or isinstance(shown, str):
+        return stored == shown
+    return abs(stored - shown) <= ACCURACY * max(1.0, abs(stored))
+
+
+def stored_values(path: Path, cells: list[Area]) -> list[CellValue]:
+    """Return what a file stores in cells, as openpyxl reads it."""
+    book = openpyxl.load_workbook(path, data_only=True)
+    values = [book[cell.sheet].cell(cell.row + 1, cell.column + 1).value for cell in cells]
+    return ["" if value is None else value for value in values]
+
+
+def formula_texts(path: Path) -> list[str]:
+    """Return the text of every formula in a file: cells, names, formats, validations, tables."""
+    texts = []
+    with zipfile.ZipFile(path) as parts:
+        for name in parts.namelist():
+            if name.startswith(("xl/worksheets/sheet", "xl/workbook.xml", "xl/tables/")):
+                tags = "f|formula[12]?|definedName|calculatedColumnFormula|totalsRowFormula"
+                found = re.findall(rf"<({tags})(?: [^>]*)?>([^<]*)<", parts.read(name).decode())
+                texts += [text for _, text in found]
+    return texts
+
+
+def formula_count(path: Path) -> int:
+    """Count the cells of a file that hold a formula."""
+    with zipfile.ZipFile(path) as parts:
+        sheets = [name for name in parts.namelist() if name.startswith("xl/worksheets/sheet")]
+        return sum(parts.read(name).count(b"</f>") for name in sheets)
+
+
+def differences(office: Office, path: Path, stored_in: Path | None = None) -> list[str]:
+    """Recalculate a file from scratch, and name each formula whose stored value was another."""
+    office.open(path)
+    office.recalculate()
+    shown = office.formulas()
+    assert len(shown) == formula_count(path), "LibreOffice has other formulas than the file"
+    stored = stored_values(stored_in or path, list(shown))
+    return [
+        f"{cell.where}: stored {value!r}, calculated {shown[cell]!r}"
+        for cell, value in zip(shown, stored, strict=True)
+        if not agrees(value, shown[cell])
+    ]
+
+
+def rewritten(path: Path, to: Path, pattern: str, replacement: str, sheet: str = "") -> Path:
+    """Copy a workbook, changing the text of one sheet or of all."""
+    number = layout.SHEETS.index(sheet) + 1 if sheet else ""
+    with zipfile.ZipFile(path) as parts, zipfile.ZipFile(to, "w", zipfile.ZIP_DEFLATED) as copy:
+        for name in parts.namelist():
+            content = parts.read(name)
+            if name.startswith(f"xl/worksheets/sheet{number}"):
+                content = re.sub(pattern, replacement, content.decode()).encode()
+            copy.writestr(name, content)
+    return to
+
+
+def sample_result(name: str, folder: Path) -> Path:
+    """Run a sample's workbook for a few generations."""
+    path = folder / f"{name}-result.xlsx"
+    said, output = Parameters(), commands.Output(path)
+    commands.run(SAMPLES / f"{name}.xlsx", said, output, stop=lambda _: [Generations(500)])
+    return path
+
+
+@pytest.fixture(scope="session")
+def office(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Office]:
+    """Keep one LibreOffice for all tests."""
+    yield from run_office(tmp_path_factory.mktemp("office"))
+
+
+@pytest.fixture(scope="session")
+def bracket(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Make a result of the bracket."""
+    return sample_result("bracket", tmp_path_factory.mktemp("bracket"))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_formula_of_a_sample_gives_the_engines_value(name, office, tmp_path):
+    """Recalculated from scratch, a sample's result shows in every formula what the engine stored."""
+    assert differences(office, sample_result(name, tmp_path)) == []
+
+
+@pytest.mark.parametrize("seed", range(CASES))
+def test_every_formula_of_a_random_case_gives_the_engines_value(seed, office, tmp_path):
+    """So it is for any option space, chromosome and parameters."""
+    path = tmp_path / "case.xlsx"
+    path.write_bytes(random_case(seed).workbook())
+    assert differences(office, path) == []
+
+
+def traits(case: Case) -> set[str]:
+    """Name what is special about a case."""
+    space, rules = case.space, case.task.rules
+    found = {case.places, rules.criterion.name, rules.requirements.moment_arm}
+    found.add(f"{len(space.approximation_polygon_mm)} corners")
+    for kind in space.kinds:
+        found.add(f"Min. {kind.count_min}")
+        found.add("wide" if kind.count_max > PLAN.gene_slots else "")
+        found.add("two heights" if len(set(kind.footprints_mm[:, 2])) == 2 else "")
+        found.add("no weight" if kind.weight_g is None else "")
+        found.add("no diameter" if kind.diameter_mm is None else "")
+    for chromosome in case.shown:
+        grasp = evaluate(space, rules, chromosome)
+        found.add("feasible" if grasp.feasible else "not feasible")
+        found.add("one element" if grasp.clearance_mm is None else "")
+        found.add("twins" if (grasp.clearance_mm or 1.0) < ACCURACY else "")
+        found.add("tie" if tied(grasp) else "")
+    return found | {f"{term} dropped" for term in rules.goals.dropped}
+
+
+def tied(grasp: Grasp) -> bool:
+    """Tell whether several pairs are the farthest apart."""
+    plan = grasp.points_mm[:, :2]
+    lengths = np.linalg.norm(plan[:, None] - plan, axis=2)[np.triu_indices(len(plan), 1)]
+    return int((lengths >= grasp.longest_mm * (1 - ACCURACY)).sum()) > 1
+
+
+def test_random_cases_are_of_every_sort():
+    """The random cases have all that the cards must stand: see the list."""
+    wanted = {*PLACES, *(criterion.name for criterion in CRITERIA), "3d", "plan"}
+    wanted |= {f"{corners} corners" for corners in range(3, 13)}
+    wanted |= {"Min. 0", "Min. 1", "Min. 2", "wide", "two heights", "no weight", "no diameter"}
+    wanted |= {"one element", "twins", "tie", "feasible", "not feasible"}
+    wanted |= {"structure dropped", "cost dropped"}
+    assert wanted - set().union(*(traits(random_case(seed)) for seed in range(CASES))) == set()
+
+
+def test_no_stored_value_is_needed(bracket, office, tmp_path):
+    """With all stored values overwritten LibreOffice finds them again: it calculates, not copies."""
+    wiped = rewritten(bracket, tmp_path / "wiped.xlsx", r"</f><v>[^<]*</v>", "</f><v>7</v>")
+    assert differences(office, wiped, stored_in=bracket) == []
+    assert len(differences(office, wiped)) > 4000
+
+
+@pytest.mark.parametrize(
+    ("cell", "wrong"),
+    [
+        (PLAN.card(1).at(33, 5), "4.0001"),
+        (PLAN.what_if.at(*STATUS), "Meets nothing."),
+        (CalcBlock(0, PLAN.gene_slots, USER).element("to polygon", 0), "0"),
+        (Area(GRASP, FIRST_LOCATION_ROW, layout.GRASP_DATA_COLUMN + 3), "1.5"),
+    ],
+)
+def test_a_wrong_stored_value_is_caught(cell, wrong, bracket, office, tmp_path):
+    """Of a file that stores one value wrongly, the comparison names that cell alone."""
+    pattern = rf'(<c r="{cell.local}"[^>]*><f>[^<]*</f><v>)[^<]*'
+    changed = rewritten(
+        bracket, tmp_path / "changed.xlsx", pattern, rf"\g<1>{wrong}", sheet=cell.sheet
+    )
+    assert [text.split(":")[0] for text in differences(office, changed)] == [cell.where]
+
+
+# --- what a designer types ---
+
+CUPS, MAGNETS = (2, 5, 9), (3, 60)
+TYPED_GENES: dict[Place, float | str | None] = {
+    PLAN.what_if.genes.cell(row, column): gene
+    for row, active in enumerate((CUPS, MAGNETS))
+    for column, gene in enumerate((len(active), *active))
+}
+"""A grasp for the What-if card."""
+OTHER_GOALS = dict(zip(GOAL_NAMES, (55.0, 4321.0, 12.5, 777.0), strict=True))
+CORNER = Area(OPTION_SPACE, POLYGON_HEADER_ROW + 1, APPROXIMATION_COLUMN + 1)
+FOOTPRINT = Area(OPTION_SPACE, FIRST_LOCATION_ROW + CUPS[0] - 1, KINDS[0].column)
+EDITS: dict[str, dict[Place, float | str | None]] = {
+    "genes": {},
+    "goals": {**OTHER_GOALS},
+    "FoS goal and clearance": {"FoSGoal": 5.5, "MinClearance": 150.0},
+    "forces and mass": {"SuctionForce": 24.0, "MagnetForce": 60.5, "PartMass": 20_000.0},
+    "prices": {"SuctionPrice": 12.5, "MagnetPrice": 0.0},
+    "centroid": {"CentroidX": 11.5, "CentroidY": -4.25, "CentroidZ": 60.0},
+    "scale factor": {"ScaleFactor": 0.4},
+    "density ratio": {"DensityRatio": 1.25},
+    "moment arm": {"MomentArm": "plan"},
+    "a sum of criteria": {"FitnessCriterion": "cost+moment"},
+    "one criterion": {"FitnessCriterion": "deviation"},
+    "polygon corner": {CORNER: 260.0},
+    "footprint": {FOOTPRINT: -33.3},
+    "user-defined grasp": {USER.cell(0, 1): 7, USER.cell(1, 0): 1, USER.cell(1, 1): 12},
+}
+EDITS["everything"] = {place: value for edit in EDITS.values() for place, value in edit.items()}
+
+
+def card_values(task: Task, grasp: Grasp) -> dict[tuple[int, int], CellValue]:
+    """Return what the engine says of a grasp, by row and column of the specification's card."""
+    row = {"forces": 21, "weight": 22, "fos": 23, "structure": 24, "x": 26, "arm": 29, "moment": 30}
+    goals = (task.rules.requirements.fos, *task.rules.goals.base)
+    values: dict[tuple[int, int], CellValue] = {
+        (row["forces"], 1): grasp.force_n,
+        (row["forces"], 2): grasp.terms.cost,
+        (row["weight"], 1): grasp.weight_n,
+        (row["fos"], 1): grasp.fos,
+        (row["structure"], 4): grasp.terms.deviation,
+        (row["structure"], 5): grasp.terms.structure,
+        (row["arm"], 5): grasp.eccentricity_mm,
+        (row["moment"], 5): grasp.terms.moment,
+        (33, 5): grasp.divergence,
+        (40, 5): "-" if grasp.clearance_mm is None else grasp.clearance_mm,
+        (41, 5): grasp.value,
+    }
+    for axis in range(3):
+        values[row["x"] + axis, 1] = float(task.space.part.centroid_mm[axis])
+        values[row["x"] + axis, 3] = float(grasp.centre_of_force_mm[axis])
+        values[row["x"] + axis, 5] = float(grasp.offset_mm[axis])
+    for column, ratio in enumerate((grasp.normalised_fos, *grasp.normalised)):
+        values[33, column] = "-" if ratio is None else ratio
+        values[34, column] = goals[column]
+    for first, kind, indices in zip((6, 14), task.space.kinds, grasp.chromosome.active, strict=True):
+        for line, index in enumerate(indices, first):
+            for axis, place in enumerate(kind.footprints_mm[index - 1].tolist()):
+                values[line, 1 + axis] = place
+                values[line, 4 + axis] = kind.force_n * place
+    return values | {STATUS: status(grasp)}
+
+
+def status(grasp: Grasp) -> str:
+    """Say in words what constraints and goals a grasp meets."""
+    if grasp.meets_all_goals:
+        return "Meets FoS, distance and every goal."
+    if grasp.feasible:
+        return "Meets FoS and distance, not every goal."
+    weak = [] if grasp.meets_fos else ["FoS is below its goal."]
+    close = [] if grasp.is_clear else ["Two elements are closer than the minimum distance."]
+    return " ".join(weak + close)
+
+
+def genes_of(rows: list[list[CellValue]]) -> Chromosome:
+    """Make a chromosome of the gene cells as shown."""
+    return Chromosome(np.array(rows, dtype=float).astype(int))
+
+
+def missed(
+    shown: list[list[CellValue]], card: Card, values: dict[tuple[int, int], CellValue]
+) -> list[str]:
+    """Name the cells of a card that show something else; ``shown`` are all of the sheet."""
+    places = {card.at(*place): wanted for place, wanted in values.items()}
+    return [
+        f"{cell.where}: {shown[cell.row][cell.column]!r} where the engine says {wanted!r}"
+        for cell, wanted in places.items()
+        if not agrees(wanted, shown[cell.row][cell.column])
+    ]
+
+
+def errors(rows: list[list[CellValue]]) -> list[CellValue]:
+    """Return the error values among cells: ``#REF!``, ``#VALUE!``, LibreOffice's ``Err:502``."""
+    return [cell for row in rows for cell in row if str(cell).startswith(("#", "Err:"))]
+
+
+def task_of(path: Path) -> Task:
+    """Read a saved workbook as a command does."""
+    return commands.prepare(read_book(path), Parameters())
+
+
+@pytest.fixture
+def opened(bracket: Path, office: Office) -> Iterator[Office]:
+    """Open the bracket's result with the stored values, as a designer does; undo what is typed."""
+    if office.path != bracket:
+        office.open(bracket)
+    yield office
+    office.undo()
+
+
+@pytest.mark.parametrize("edit", EDITS)
+def test_cards_follow_what_is_typed(edit, opened, tmp_path):
+    """After typing, every card and the user-defined block show what the engine makes of the saved file."""
+    opened.enter({**TYPED_GENES, **EDITS[edit]})
+    task = task_of(opened.save(tmp_path / "edited.xlsx"))
+    shown = opened.read(GA_CELLS)
+    for name, card in CARDS.items():
+        grasp = evaluate(task.space, task.rules, genes_of(opened.read(name)))
+        assert missed(shown, card, card_values(task, grasp)) == []
+    user = task.benchmark
+    assert user.chromosome == genes_of(opened.read("UserChromosome"))
+    fitness = shown[USER.row + 3][USER.column - 1 :]
+    assert all(map(agrees, (user.fos, *user.terms, user.divergence), fitness))
+
+
+def test_command_line_says_what_the_card_shows(opened, tmp_path):
+    """``grasp_xl evaluate --json`` on the saved file and the What-if card give the same numbers."""
+    opened.enter({**TYPED_GENES, **EDITS["everything"]})
+    saved = opened.save(tmp_path / "edited.xlsx")
+    cups, magnets = (",".join(map(str, active)) for active in (CUPS, MAGNETS))
+    command = [sys.executable, "-m", "grasp_xl", "evaluate", str(saved), "--json"]
+    command += ["--cups", cups, "--magnets", magnets]
+    done = subprocess.run(command, check=True, capture_output=True, text=True)  # noqa: S603
+    said = json.loads(done.stdout)
+    places = {"fos": (23, 1), "cost": (21, 2), "moment": (30, 5), "deviation": (24, 4)}
+    places |= {"structure": (24, 5), "divergence": (33, 5), "clearance": (40, 5), "value": (41, 5)}
+    values = {place: said[name] for name, place in places.items()}
+    assert missed(opened.read(GA_CELLS), PLAN.what_if, values) == []
+
+
+def test_goals_follow_the_user_defined_grasp_until_typed_over(opened, tmp_path):
+    """A goal cell shows the user-defined grasp's own value; a typed goal stays."""
+    before = [opened.value(name) for name in GOAL_NAMES]
+    opened.enter({USER.cell(0, 1): 7})
+    user = task_of(opened.save(tmp_path / "user.xlsx")).benchmark
+    assert all(map(agrees, user.terms, (opened.value(name) for name in GOAL_NAMES)))
+    assert [opened.value(name) for name in GOAL_NAMES] != before
+    opened.enter({"MomentGoal": 2500.0, USER.cell(0, 1): 1})
+    assert opened.value("MomentGoal") == 2500.0
+    opened.enter({"MomentGoal": None})
+    assert opened.value(PLAN.what_if.at(*STATUS)) == NO_GOAL
+
+
+WRONG = {
+    "cup index": (0, 1, (0, -1, 9999, 2.5, "abc", None), BAD_INDEX),
+    "magnet index": (1, 1, (0, -1, 9999, 2.5, "abc", None), BAD_INDEX),
+    "cup count": (0, 0, (0, -1, 6, 2.5, "abc", None), BAD_COUNT),
+    "magnet count": (1, 0, (0, -1, 6, 2.5, "abc", None), BAD_COUNT),
+}
+
+
+@pytest.mark.parametrize("name", ["WhatIf", "Child2"])
+@pytest.mark.parametrize("gene", WRONG)
+def test_a_wrong_gene_gives_a_plain_message(name, gene, opened):
+    """The card says what is wrong and shows no error value; nothing else on the sheet changes."""
+    row, column, values, message = WRONG[gene]
+    card = CARDS[name]
+    before = opened.read(GA_CELLS)
+    for value in values:
+        opened.enter({card.genes.cell(row, column): value})
+        after = opened.read(GA_CELLS)
+        shown = opened.read(card.at(0, 0, CARD_ROWS, CARD_COLUMNS))
+        assert shown[STATUS[0]][STATUS[1]] == message
+        assert [shown[33][5], shown[41][5]] == ["-", "-"]
+        assert errors(after) == []
+        assert without(card, before) == without(card, after)
+
+
+def without(card: Card, rows: list[list[CellValue]]) -> list[list[CellValue]]:
+    """Return the cells of the sheet outside a card."""
+    inside = range(card.column, card.column + CARD_COLUMNS)
+    return [
+        [cell for column, cell in enumerate(cells) if row < card.row or column not in inside]
+        for row, cells in enumerate(rows)
+    ]
+
+
+def test_a_wrong_gene_leaves_no_error_on_any_sheet(opened):
+    """Behind the card and in the picture nothing breaks either; only missing points are #N/A."""
+    opened.enter({PLAN.what_if.genes.cell(0, 1): 9999, PLAN.what_if.genes.cell(1, 0): "abc"})
+    wrong = {(cell.sheet, v) for cell, v in opened.formulas().items() if errors([[v]])}
+    assert wrong == {(GRASP, NOT_AVAILABLE)}
+
+
+@pytest.mark.parametrize("value", [0, 9999, "abc", None])
+def test_a_wrong_user_defined_gene_leaves_no_goals(value, opened):
+    """Without a user-defined grasp there are no goals: each card says so, without an error value."""
+    opened.enter({USER.cell(0, 1): value})
+    assert opened.value(PLAN.what_if.at(*STATUS)) == NO_GOAL
+    for card in CARDS.values():
+        assert not str(opened.value(card.at(*STATUS))).startswith("Meets")
+        assert opened.value(card.at(33, 5)) == "-"
+    assert errors(opened.read(GA_CELLS)) == []
+
+
+@pytest.mark.parametrize("name", ["PartMass", "SuctionPrice", "MinClearance", "DensityRatio"])
+@pytest.mark.parametrize("value", ["abc", None])
+def test_an_input_that_is_no_number_gives_a_plain_message(name, value, opened):
+    """Every card says so, and no error value is shown."""
+    opened.enter({name: value})
+    assert opened.values([card.at(*STATUS) for card in CARDS.values()]) == [BAD_INPUT] * len(CARDS)
+    assert errors(opened.read(GA_CELLS)) == []
+
+
+def test_an_inactive_wrong_index_does_no_harm(opened):
+    """Only active genes enter a sum: others may be anything."""
+    opened.enter(TYPED_GENES)
+    before = opened.value(PLAN.what_if.at(33, 5))
+    opened.enter({PLAN.what_if.genes.cell(0, 5): 9999, PLAN.what_if.genes.cell(1, 4): "abc"})
+    assert opened.value(PLAN.what_if.at(33, 5)) == before
+    assert errors(opened.read(GA_CELLS)) == []
+
+
+def test_a_picked_design_is_loaded(opened, bracket):
+    """Row k of the valid designs fills the two rows to copy and the What-if card; no row, the best."""
+    task = task_of(bracket)
+    rows = Area(VALID_DESIGNS, PICK_ROW + 2, 1, 2, 6)
+    best = opened.read("WhatIf")
+    assert opened.read(rows) == best
+    designs = int(opened.value("ValidDesignsFound"))
+    for number in (1, designs // 2, designs):
+        opened.enter({PICK_NAME: number})
+        (listed,) = opened.read(Area(VALID_DESIGNS, TABLE_ROW + number, 1, 1, 12))
+        assert opened.read(rows) == opened.read("WhatIf") == [listed[:6], listed[6:]]
+        grasp = evaluate(task.space, task.rules, genes_of(opened.read("WhatIf")))
+        assert missed(opened.read(GA_CELLS), PLAN.what_if, card_values(task, grasp)) == []
+    for nonsense in (0, designs + 1, "abc", None):
+        opened.enter({PICK_NAME: nonsense})
+        assert opened.read(rows) == opened.read("WhatIf") == best
+
+
+@pytest.mark.parametrize("edit", EDITS)
+def test_difference_is_0_until_something_is_typed(edit, opened):
+    """Beside the engine a card shows 0; after an edit that matters to it, that it was edited."""
+    shown = [card.at(*DIFFERENCE) for card in CARDS.values()]
+    opened.recalculate()
+    assert opened.values(shown) == [0] * len(CARDS)
+    opened.enter(EDITS[edit] or TYPED_GENES)
+    *children, what_if = opened.values(shown)
+    assert children == [0 if edit == "genes" else "edited"] * PLAN.children
+    assert what_if == "edited"
+
+
+# --- formulas that every program has ---
+
+
+@pytest.mark.parametrize("case", ["sample", 0, 3, 5])
+def test_formulas_are_plain(case, bracket, tmp_path):
+    """No formula has a function beyond the list, an array's braces, or more text than Excel takes."""
+    path = bracket
+    if case != "sample":
+        path = tmp_path / "case.xlsx"
+        path.write_bytes(random_case(case).workbook())
+    for text in formula_texts(path):
+        plain = re.sub(r'"[^"]*"|&quot;.*?&quot;', '""', text)
+        assert set(re.findall(r"[A-Za-z_.]+[A-Za-z0-9_.]*(?=\()", plain)) <= FUNCTIONS
+        assert not set("{}@#") & set(plain)
+        assert len(text) <= MAX_FORMULA
