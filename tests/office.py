@@ -110,14 +110,14 @@ class Office:
         self._do("save", path=str(path))
         return path
 
-    def _do(self, command: str, **details: Any) -> Any:  # noqa: ANN401 (JSON)
+    def _do(self, command: str, **details: Any) -> Any:
         if self._worker.stdin is None:
             raise AssertionError("started with a pipe")
         self._worker.stdin.write(json.dumps({"do": command, **details}) + "\n")
         self._worker.stdin.flush()
         return self._answer()
 
-    def _answer(self) -> Any:  # noqa: ANN401 (JSON)
+    def _answer(self) -> Any:
         if self._worker.stdout is None:
             raise AssertionError("started with a pipe")
         patience = Timer(SECONDS, self._kill)

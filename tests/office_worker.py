@@ -6,6 +6,7 @@ Runs under the Python that has LibreOffice's ``uno`` (Debian: /usr/bin/python3, 
 import contextlib
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -20,7 +21,7 @@ try:
     from com.sun.star.lang import DisposedException
     from com.sun.star.uno import Exception as UnoException
 except ImportError as error:  # told to the test session in words, which then skips or fails
-    print(json.dumps({"fault": f"no uno: {error}"}), flush=True)
+    sys.stdout.write(json.dumps({"fault": f"no uno: {error}"}) + "\n")
     sys.exit()
 
 START_SECONDS = 60
@@ -32,9 +33,9 @@ SCRATCH = "scratch_of_the_tests"
 def start_office(profile):
     """Start LibreOffice with a profile of its own; return the process and its desktop."""
     pipe = f"grasp_xl_{uuid.uuid4().hex}"
-    process = subprocess.Popen(
+    process = subprocess.Popen(  # noqa: S603 (our own arguments)
         [
-            "soffice",
+            shutil.which("soffice") or "soffice",
             "--headless",
             "--norestore",
             "--nologo",
@@ -137,7 +138,7 @@ class Session:
         for sheet in self._book.Sheets:
             name = sheet.Name  # a question to LibreOffice: once, not for every cell
             used = sheet.createCursor()
-            used.gotoEndOfUsedArea(True)
+            used.gotoEndOfUsedArea(True)  # noqa: FBT003 (UNO has no names)
             values = self._values(sheet, used)
             for row, texts in enumerate(used.getFormulaArray()):
                 for column, text in enumerate(texts):
@@ -172,7 +173,7 @@ class Session:
     def close(self):
         """Close the workbook without saving it."""
         if self._book is not None:
-            self._book.close(True)
+            self._book.close(True)  # noqa: FBT003 (UNO has no names)
             self._book, self._typed = None, []
 
     def _area(self, place):
@@ -223,18 +224,24 @@ def answer(session, line):
         return {"fault": f"{type(error).__name__}: {error}"}
 
 
+def say(message):
+    """Write one line."""
+    sys.stdout.write(json.dumps(message) + "\n")
+    sys.stdout.flush()
+
+
 def main(profile):
     """Tell LibreOffice's process group, then serve until the input ends."""
     try:
         process, desktop = start_office(profile)
     except (OSError, UnoException) as error:
-        print(json.dumps({"fault": f"soffice does not start: {error}"}), flush=True)
+        say({"fault": f"soffice does not start: {error}"})
         return
     session = Session(desktop)
     try:
-        print(json.dumps({"answer": process.pid}), flush=True)
+        say({"answer": process.pid})
         for line in sys.stdin:
-            print(json.dumps(answer(session, line)), flush=True)
+            say(answer(session, line))
     finally:
         with contextlib.suppress(UnoException):  # an open workbook would leave its lock file
             session.close()

@@ -86,7 +86,7 @@ def option_spaces(draw: st.DrawFn, most: int = 12) -> OptionSpace:
     for name in ("suction", "magnets"):
         least_points = 1 if name == "suction" else 0
         points = draw(st.lists(place, min_size=least_points, max_size=most, unique=True))
-        count_min = draw(st.integers(0, min(2, len(points)))) if name == "magnets" else 1
+        count_min = draw(st.integers(0, min(2, len(points))))
         kinds.append(
             kind(
                 name,

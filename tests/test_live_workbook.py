@@ -19,7 +19,6 @@ from office import CellValue, Office, Place, run_office
 from grasp_xl import commands
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.grasp import Grasp, evaluate
-from grasp_xl.rules import Rules
 from grasp_xl.search.stop import Generations
 from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook import layout
@@ -286,7 +285,9 @@ def card_values(task: Task, grasp: Grasp) -> dict[tuple[int, int], CellValue]:
     for column, ratio in enumerate((grasp.normalised_fos, *grasp.normalised)):
         values[33, column] = "-" if ratio is None else ratio
         values[34, column] = goals[column]
-    for first, kind, indices in zip((6, 14), task.space.kinds, grasp.chromosome.active, strict=True):
+    for first, kind, indices in zip(
+        (6, 14), task.space.kinds, grasp.chromosome.active, strict=True
+    ):
         for line, index in enumerate(indices, first):
             for axis, place in enumerate(kind.footprints_mm[index - 1].tolist()):
                 values[line, 1 + axis] = place

@@ -116,7 +116,7 @@ def breed_clear(
     for attempt in range(2 * TRIES_PER_MATRIX):
         mutate(t, rng, parent, matrix, attempt >= TRIES_PER_MATRIX, child)
         n = active_places(t, child, places)
-        if is_clear(t, places, n):
+        if n > 0 and is_clear(t, places, n):
             return n
     copy_into(parent, child)
     return 0

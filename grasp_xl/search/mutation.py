@@ -79,7 +79,7 @@ def clear_child(
     parent: Chromosome,
     matrix: IntArray,
 ) -> Chromosome:
-    """Mutate the parent until the child keeps the clearance (section 5.2.3).
+    """Mutate the parent until the child has an element and keeps the clearance (section 5.2.3).
 
     After 1000 tries the counts mutate too (figure 32); after 1000 more it stays a copy.
     """
@@ -94,10 +94,8 @@ def clear_child(
 
 
 def keeps_clearance(space: OptionSpace, rules: Rules, child: Chromosome) -> bool:
-    """Tell whether all active elements are far enough apart; one or none always are."""
-    if child.counts.sum() < 2:
-        return True
-    return evaluate(space, rules, child).is_clear
+    """Tell whether there is an element at all, and all active ones are far enough apart."""
+    return bool(child.counts.any()) and evaluate(space, rules, child).is_clear
 
 
 def next_generation(
@@ -116,7 +114,7 @@ def next_generation(
         parent if elitism and number == 0 else clear_child(space, rules, rng, parent, matrix)
         for number in range(children)
     )
-    judged = [evaluate(space, rules, child) for child in brood if child.counts.any()]
+    judged = [evaluate(space, rules, child) for child in brood]
     fit: list[Grasp] = [grasp for grasp in judged if grasp.feasible]
     fittest = min(fit, key=lambda grasp: grasp.value).chromosome if fit else None
     return Generation(matrix, brood, fittest)

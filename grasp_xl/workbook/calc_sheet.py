@@ -54,7 +54,7 @@ SUMMARY_HEADER = (
     "hull area",
     "centroid inside",
 )
-TABLES = ("distance", "structure with the main truss here", "edge of the hull")
+TABLES = ("distance (mm)", "structure if this is the main truss (mm)", "edge of the hull (mm²)")
 SLACK = "1E-9"
 SAME_PLACE = "1E-9"
 """Coordinates nearer than this are the same place (mm)."""
@@ -177,9 +177,20 @@ def write_calc(
     ratio = float(inputs["DensityRatio"] or 0.0)
     for title, block, grasp in blocks:
         pen.put(block_cells(title, block, space, grasp, ratio))
-    pen.sheet.set_column(0, 60, 10)
-    pen.sheet.set_column(INPUT_COLUMN, INPUT_COLUMN, 17)
+    _widths(pen, blocks[0][1])
     pen.sheet.freeze_panes(FIRST_ROW, 0)
+
+
+def _widths(pen: Pen, block: CalcBlock) -> None:
+    first, behind = block.table(0).column - 1, block.table(len(TABLES)).column - 1
+    pen.sheet.set_column(0, BLOCK_COLUMN - 1, 12)
+    pen.sheet.set_column(INPUT_COLUMN, INPUT_COLUMN, 19)
+    pen.sheet.set_column(BLOCK_COLUMN, BLOCK_COLUMN, 22)
+    pen.sheet.set_column(BLOCK_COLUMN + 1, first - 1, 14)
+    pen.sheet.set_column(first, behind, 11)
+    for number, title in enumerate(TABLES):
+        corner = block.table(number).column - 1
+        pen.sheet.set_column(corner, corner, len(title))
 
 
 def _edges(pen: Pen, space: OptionSpace) -> None:
@@ -269,16 +280,30 @@ def block_cells(
         yield Cell(block.row + 1, BLOCK_COLUMN + offset, label, Style.HEADER)
     for offset, label in enumerate(ELEMENT_HEADER):
         yield Cell(block.first - 1, BLOCK_COLUMN + offset, label, Style.HEADER)
-    for number, label in enumerate(TABLES):
-        table = block.table(number)
-        yield Cell(table.row - 1, table.column, label, Style.HEADER)
     for row in range(block.size):
         yield from _element_cells(block, space, values, row)
+    for number in range(len(TABLES)):
+        yield from _table_labels(block, number)
     yield from _distance_cells(block, values)
     yield from _structure_cells(block, values)
     yield from _hull_cells(block, values)
     yield from _summary_cells(block, values)
     yield from _engine_cells(block, grasp)
+
+
+def _table_labels(block: CalcBlock, number: int) -> Iterator[Cell]:
+    """Yield a square table's title in its corner, and the elements along two of its sides."""
+    table = block.table(number)
+    yield Cell(table.row - 1, table.column - 1, TABLES[number], Style.HEADER)
+    for row in range(block.size):
+        name = _element_name(block, row)
+        yield Cell(table.row + row, table.column - 1, name, Style.LABEL)
+        yield Cell(table.row - 1, table.column + row, name, Style.HEADER)
+
+
+def _element_name(block: CalcBlock, row: int) -> str:
+    number, slot = divmod(row, block.slots)
+    return f"{KINDS[number].row_label} {slot + 1}"
 
 
 def _at(area: Area, value: CellValue, style: Style, formula: str | None) -> Cell:
@@ -290,8 +315,7 @@ def _element_cells(
 ) -> Iterator[Cell]:
     number, slot = divmod(row, block.slots)
     labels = KINDS[number]
-    name = f"{labels.row_label} {slot + 1}"
-    yield Cell(block.first + row, BLOCK_COLUMN, name, Style.LABEL)
+    yield Cell(block.first + row, BLOCK_COLUMN, _element_name(block, row), Style.LABEL)
     if space.kinds[number].total == 0:
         for title in ELEMENT_HEADER[1:-1]:
             yield _at(block.element(title, row), 0, Style.MARK, None)
