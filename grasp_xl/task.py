@@ -31,6 +31,9 @@ T = TypeVar("T")
 NEGLIGIBLE_GOAL = 1e-9
 """A defaulted goal below this drops its term (one element has no structure, say)."""
 
+HASHED_DECIMALS = 9
+"""Decimals of a coordinate (mm) that tell two option spaces apart."""
+
 NO_GOALS = (None, None, None, None)
 
 
@@ -122,7 +125,9 @@ class Task:
             self.space.approximation_polygon_mm,
             self.benchmark.chromosome.genes,
         ):
-            digest.update(str(array.shape).encode() + np.ascontiguousarray(array).tobytes())
+            # Some programs drop the last digits of numbers near zero when they save.
+            places = np.round(array, HASHED_DECIMALS) + 0.0
+            digest.update(str(places.shape).encode() + np.ascontiguousarray(places).tobytes())
         numbers = [
             self.space.part.mass_g,
             self.space.scale_factor,

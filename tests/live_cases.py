@@ -73,7 +73,7 @@ def random_case(seed: int) -> Case:
     places = PLACES[seed % len(PLACES)]
     space = OptionSpace(
         part=Part(rng.uniform(500, 20_000), _centroid(rng, places)),
-        kinds=_kinds(rng, places, wide=seed % 6 == 0),
+        kinds=_kinds(rng, places, wide=seed % 9 == 0),
         approximation_polygon_mm=_polygon(rng, corners=3 + seed % 10),
         scale_factor=float(rng.choice([0.35, 0.5, 0.65, 1.0])),
     )

@@ -482,7 +482,7 @@ def test_ctrl_c_writes_the_best_so_far(bracket: Path) -> None:
     command += ["--generations", FOREVER, "--json"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=screen, text=True) as running:  # noqa: S603
         shown = ""
-        while "left" not in shown:
+        while not ("s left" in shown and "best 3." in shown):
             shown += os.read(terminal, 4096).decode(errors="replace")
         running.send_signal(signal.SIGINT)
         out, _ = running.communicate(timeout=60)

@@ -84,8 +84,10 @@ def agrees(stored: CellValue, shown: CellValue) -> bool:
 
 def stored_values(path: Path, cells: list[Area]) -> list[CellValue]:
     """Return what a file stores in cells, as openpyxl reads it."""
-    book = openpyxl.load_workbook(path, data_only=True)
-    values = [book[cell.sheet].cell(cell.row + 1, cell.column + 1).value for cell in cells]
+    book = openpyxl.load_workbook(path, data_only=True, read_only=True)
+    sheets = {sheet.title: list(sheet.iter_rows(values_only=True)) for sheet in book}
+    book.close()
+    values = [sheets[cell.sheet][cell.row][cell.column] for cell in cells]
     return ["" if value is None else value for value in values]
 
 
@@ -239,12 +241,11 @@ TYPED_GENES: dict[Place, float | str | None] = {
     for column, gene in enumerate((len(active), *active))
 }
 """A grasp for the What-if card."""
-OTHER_GOALS = dict(zip(GOAL_NAMES, (55.0, 4321.0, 12.5, 777.0), strict=True))
 CORNER = Area(OPTION_SPACE, POLYGON_HEADER_ROW + 1, APPROXIMATION_COLUMN + 1)
 FOOTPRINT = Area(OPTION_SPACE, FIRST_LOCATION_ROW + CUPS[0] - 1, KINDS[0].column)
 EDITS: dict[str, dict[Place, float | str | None]] = {
     "genes": {},
-    "goals": {**OTHER_GOALS},
+    "goals": dict(zip(GOAL_NAMES, (55.0, 4321.0, 12.5, 777.0), strict=True)),
     "FoS goal and clearance": {"FoSGoal": 5.5, "MinClearance": 150.0},
     "forces and mass": {"SuctionForce": 24.0, "MagnetForce": 60.5, "PartMass": 20_000.0},
     "prices": {"SuctionPrice": 12.5, "MagnetPrice": 0.0},
@@ -263,36 +264,35 @@ EDITS["everything"] = {place: value for edit in EDITS.values() for place, value 
 
 def card_values(task: Task, grasp: Grasp) -> dict[tuple[int, int], CellValue]:
     """Return what the engine says of a grasp, by row and column of the specification's card."""
-    row = {"forces": 21, "weight": 22, "fos": 23, "structure": 24, "x": 26, "arm": 29, "moment": 30}
     goals = (task.rules.requirements.fos, *task.rules.goals.base)
     values: dict[tuple[int, int], CellValue] = {
-        (row["forces"], 1): grasp.force_n,
-        (row["forces"], 2): grasp.terms.cost,
-        (row["weight"], 1): grasp.weight_n,
-        (row["fos"], 1): grasp.fos,
-        (row["structure"], 4): grasp.terms.deviation,
-        (row["structure"], 5): grasp.terms.structure,
-        (row["arm"], 5): grasp.eccentricity_mm,
-        (row["moment"], 5): grasp.terms.moment,
+        (21, 1): grasp.force_n,
+        (21, 2): grasp.terms.cost,
+        (22, 1): grasp.weight_n,
+        (23, 1): grasp.fos,
+        (24, 4): grasp.terms.deviation,
+        (24, 5): grasp.terms.structure,
+        (29, 5): grasp.eccentricity_mm,
+        (30, 5): grasp.terms.moment,
         (33, 5): grasp.divergence,
+        STATUS: status(grasp),
         (40, 5): "-" if grasp.clearance_mm is None else grasp.clearance_mm,
         (41, 5): grasp.value,
     }
-    for axis in range(3):
-        values[row["x"] + axis, 1] = float(task.space.part.centroid_mm[axis])
-        values[row["x"] + axis, 3] = float(grasp.centre_of_force_mm[axis])
-        values[row["x"] + axis, 5] = float(grasp.offset_mm[axis])
+    for axis, row in enumerate((26, 27, 28)):
+        values[row, 1] = float(task.space.part.centroid_mm[axis])
+        values[row, 3] = float(grasp.centre_of_force_mm[axis])
+        values[row, 5] = float(grasp.offset_mm[axis])
     for column, ratio in enumerate((grasp.normalised_fos, *grasp.normalised)):
         values[33, column] = "-" if ratio is None else ratio
         values[34, column] = goals[column]
-    for first, kind, indices in zip(
-        (6, 14), task.space.kinds, grasp.chromosome.active, strict=True
-    ):
-        for line, index in enumerate(indices, first):
+    first_rows, kinds = (6, 14), task.space.kinds
+    for first, kind, indices in zip(first_rows, kinds, grasp.chromosome.active, strict=True):
+        for row, index in enumerate(indices, first):
             for axis, place in enumerate(kind.footprints_mm[index - 1].tolist()):
-                values[line, 1 + axis] = place
-                values[line, 4 + axis] = kind.force_n * place
-    return values | {STATUS: status(grasp)}
+                values[row, 1 + axis] = place
+                values[row, 4 + axis] = kind.force_n * place
+    return values
 
 
 def status(grasp: Grasp) -> str:

@@ -54,6 +54,7 @@ SUMMARY_HEADER = (
     "hull area",
     "centroid inside",
 )
+MEASURED = ("longest", "shortest", "hull area")
 TABLES = ("distance (mm)", "structure if this is the main truss (mm)", "edge of the hull (mm²)")
 SLACK = "1E-9"
 SAME_PLACE = "1E-9"
@@ -466,7 +467,8 @@ def _summary_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
         f"IF(MIN({hull})>=-{SLACK}*{longest}^2,1,0))",
     }
     for title, formula in formulas.items():
-        yield _at(block.summary(title), values.summary(title), Style.COORDINATE, formula)
+        style = Style.COORDINATE if title in MEASURED else Style.MARK
+        yield _at(block.summary(title), values.summary(title), style, formula)
 
 
 def _first_below(axis: str, cells: str, bound: str) -> str:

