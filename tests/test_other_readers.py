@@ -102,7 +102,7 @@ def node(package: str, *arguments: str) -> str:
     done = subprocess.run(  # noqa: S603 (our own arguments)
         [program, *arguments], cwd=HERE, capture_output=True, text=True, check=False
     )
-    assert done.stderr == ""
+    assert done.stderr == "", done.stderr
     return done.stdout
 
 
