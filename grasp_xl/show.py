@@ -146,7 +146,7 @@ def run(task: Task, result: Result, seconds: float, path: Path) -> None:
             f"Best {task.rules.criterion.name} {result.best.value:.6g}, "
             f"found at generation {state.improved_at:,}."
         )
-    else:
+    elif state.generation:
         line("No grasp met FoS and clearance yet: run more generations, or another seed.")
     line(
         f"{state.generation:,} generations in {result.seconds:.2f} s "
