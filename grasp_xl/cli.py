@@ -47,20 +47,15 @@ def _refused(option: str, found: str, expected: str, hint: str = "") -> UsageErr
     return UsageError(message, where=option, hint=hint or f"Without {option} the default holds")
 
 
-def _read_number(text: str) -> float:
-    for kind in (int, float):  # a whole number keeps all its digits
-        with suppress(ValueError):
-            return kind(text)
-    return math.nan
-
-
 def _number(
     option: str, expected: str, *, least: float = -MOST, most: float = MOST
 ) -> Callable[[str], float]:
     """Make a parser of numbers within bounds."""
 
     def parse(text: str) -> float:
-        number = _read_number(text)
+        number = math.nan
+        with suppress(ValueError):
+            number = float(text)
         if least <= number <= most:
             return number
         raise _refused(option, text, expected)
@@ -68,16 +63,17 @@ def _number(
     return parse
 
 
-def _whole(option: str, least: int, most: float = MOST) -> Callable[[str], int]:
-    """Make a parser of whole numbers within bounds."""
-    expected = f"a whole number from {least} to {most:,.0f}"
-    number = _number(option, expected, least=least, most=most)
+def _whole(option: str, least: int, most: int = int(MOST)) -> Callable[[str], int]:
+    """Make a parser of whole numbers within bounds; ``5e4`` is one, too."""
+    expected = f"a whole number from {least} to {most:,}"
 
     def parse(text: str) -> int:
-        value = number(text)
-        if value != int(value):
-            raise _refused(option, text, expected)
-        return int(value)
+        for read in (int, float):  # int() keeps all digits
+            with suppress(ValueError):
+                number = read(text)
+                if least <= number <= most and number == int(number):
+                    return int(number)
+        raise _refused(option, text, expected)
 
     return parse
 

@@ -46,11 +46,11 @@ def allocation_free(function: Callable[P, R]) -> Callable[P, R]:
     return _compiled(function, _nrt=False)
 
 
-def _compiled(function: Callable[P, R], **options: object) -> Callable[P, R]:
+def _compiled(function: Callable[P, R], **options: bool) -> Callable[P, R]:
     settings: Any = numba.config
     usual = settings.CACHE_DIR
     settings.CACHE_DIR = CACHE_FOLDER
-    settled = {**options, "error_model": "numpy", "nogil": True}
+    settled: dict[str, Any] = {**options, "error_model": "numpy", "nogil": True}
     try:
         kernel = numba.njit(cache=True, **settled)(function)
     except RuntimeError:  # no folder that can be written: compile in every process

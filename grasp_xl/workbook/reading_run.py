@@ -15,7 +15,7 @@ from grasp_xl.search.result import State, Trace, gene_columns, load_stream
 from grasp_xl.space import IntArray, OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout, run_log
-from grasp_xl.workbook.cells import Source, Value
+from grasp_xl.workbook.cells import Source, Value, shown
 from grasp_xl.workbook.history_sheet import MAX_HISTORY
 from grasp_xl.workbook.layout import Area, Field
 from grasp_xl.workbook.reading_ga import find_block
@@ -68,12 +68,16 @@ def refuse_other_inputs(source: Source, task: Task) -> None:
     if logged and logged.get(INPUTS_HASH) != task.inputs_hash:
         now = (("Seed", task.settings.seed), *run_log.parameter_rows(task))
         told = [
-            f"{label} {value}, not {logged.get(label)}"
+            f"{label} {_told(value)}, not {_told(logged.get(label))}"
             for label, value in now
             if label != GENERATIONS and not _alike(value, logged.get(label))
         ]
         found = f"inputs that changed since its run: {'; '.join(told) or 'the option space'}"
         raise _no_run(source, found, "undo the changes, or run it without --continue")
+
+
+def _told(value: Value) -> str:
+    return shown(value) if isinstance(value, int | float) else str(value)
 
 
 def _alike(value: Value, logged: Value) -> bool:
