@@ -68,11 +68,12 @@ def _whole(option: str, least: int, most: int = int(MOST)) -> Callable[[str], in
     expected = f"a whole number from {least} to {most:,}"
 
     def parse(text: str) -> int:
-        for read in (int, float):  # int() keeps all digits
+        number: float = math.nan
+        for read in (float, int):  # int() keeps all digits
             with suppress(ValueError):
                 number = read(text)
-                if least <= number <= most and number == int(number):
-                    return int(number)
+        if least <= number <= most and number == int(number):
+            return int(number)
         raise _refused(option, text, expected)
 
     return parse
@@ -318,7 +319,8 @@ def _known(error: BaseException) -> GraspError:
 
 def _forget_output() -> None:
     """Leave nothing for Python to write when it ends."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    with suppress(OSError):  # where it is no file, nothing waits there
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _tell(error: GraspError, *, as_json: bool) -> None:

@@ -296,7 +296,7 @@ def _as_written(book: Book) -> tuple[bytes, Filled]:
     """Write a workbook again as it was, with its own cards and results, to know our cells."""
     names = book.source.names
     genes = names.get(layout.USER_BLOCK.name)
-    if genes is None:
+    if genes is None:  # an export
         content = export_workbook(book.space)
         cells = filled_cells(Source(Package("export", content)), layout.OPTION_SPACE)
         return content, {layout.OPTION_SPACE: cells}
@@ -310,6 +310,8 @@ def _as_written(book: Book) -> tuple[bytes, Filled]:
         book,
         space=replace(book.space, kinds=tuple(kinds)),
         parameters=replace(book.parameters, children=max(2, children)),
+        user_chromosome=None,
+        what_if=None,
     )
     any_grasp = random_chromosome(was.space, np.random.default_rng(0))
     task = settle(was.space, was.parameters, any_grasp)

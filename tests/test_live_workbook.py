@@ -59,12 +59,12 @@ STATUS, DIFFERENCE = (35, 0), (42, 5)
 NOT_AVAILABLE = "#N/A"
 BAD_COUNT = "A total is out of range: type a whole number from Min. to Max. of its kind."
 BAD_INDEX = "An active index is not in the option space: type a whole number from 1 to its total."
-BAD_INPUT = "An input is empty or no number: look at the part, the elements and the parameters."
+BAD_INPUT = "An input cannot be used: look at the part, the elements, the scale and the parameters."
 NO_GOAL = "A goal is empty or no number: look at the goals and the user-defined chromosome."
 
 FUNCTIONS = {
     *("ABS", "AND", "COLUMN", "COUNT", "IF", "INDEX", "INT", "ISBLANK", "ISNUMBER", "LEFT", "MAX"),
-    *("MIN", "N", "NA", "NOT", "ROUND", "ROW", "SEARCH", "SQRT", "SUM", "SUMPRODUCT", "SUMSQ"),
+    *("MIN", "N", "NA", "NOT", "OR", "ROUND", "ROW", "SEARCH", "SQRT", "SUM", "SUMPRODUCT", "SUMSQ"),
     "TRIM",
 }
 """All that formulas may use: each is in Excel 2016 and LibreOffice 7.4, and none is volatile."""

@@ -147,6 +147,13 @@ def test_a_link_to_the_input_is_the_input(export: Path) -> None:
     assert run(link, "-o", export) == 2
 
 
+def test_a_link_that_leads_to_itself_is_no_place(export: Path) -> None:
+    link = export.with_name("link.xlsx")
+    link.symlink_to(link)
+    assert run(export, "-o", link) == 3
+    assert link.is_symlink()
+
+
 def test_a_link_stays_a_link(export: Path) -> None:
     """What it points to is replaced."""
     link, file = export.with_name("link.xlsx"), export.with_name("file.xlsx")
@@ -297,14 +304,16 @@ def type_genes(name: str) -> Edit:
     return change
 
 
-def named(book: Path, name: str) -> list[tuple[Any, ...]]:
-    """Read a named area."""
+def named(book: Path, *names: str) -> list[tuple[tuple[Any, ...], ...]]:
+    """Read named areas."""
     opened = openpyxl.load_workbook(book, data_only=True)
-    sheet, cells = opened.defined_names[name].attr_text.replace("$", "").split("!")
-    found = opened[sheet.strip("'")][cells]
-    if not isinstance(found, tuple):
-        return [(found.value,)]
-    return [tuple(cell.value for cell in row) for row in found]
+    areas = []
+    for name in names:
+        sheet, cells = opened.defined_names[name].attr_text.replace("$", "").split("!")
+        first, _, last = cells.partition(":")
+        rows = opened[sheet.strip("'")][f"{first}:{last or first}"]
+        areas.append(tuple(tuple(cell.value for cell in row) for row in rows))
+    return areas
 
 
 def test_in_place_nothing_is_named_in_what_was_only_saved_again(book: Path) -> None:
@@ -326,6 +335,13 @@ def test_in_place_a_sorted_list_is_still_ours(book: Path) -> None:
     assert run(book, "--in-place") == 0
 
 
+def test_in_place_a_list_that_was_emptied_is_no_traceback(book: Path) -> None:
+    """What was listed beside it is named then, since we no longer know it as ours."""
+    edit(book, lambda opened: opened["History"].delete_rows(4, 1000))
+    assert run(book, "--in-place") in (0, 3)
+    assert run(book, "--in-place", "--force") == 0
+
+
 @pytest.mark.parametrize(
     "values",
     [
@@ -338,16 +354,18 @@ def test_in_place_inputs_are_carried_and_not_named(book: Path, values: dict[str,
     """Also where other sizes move the cards."""
     edit(book, lambda opened: [typed(*item)(opened) for item in values.items()])
     assert run(book, "--in-place") == 0
-    for name, value in values.items():
-        assert named(book, name) == [(value,)]
+    assert named(book, *values) == [((value,),) for value in values.values()]
 
 
 def test_in_place_typed_genes_are_carried_and_not_named(book: Path) -> None:
-    for name in ("UserChromosome", "WhatIf"):
-        edit(book, type_genes(name))
+    edit(book, lambda opened: [type_genes(n)(opened) for n in ("UserChromosome", "WhatIf")])
     for _ in range(2):
         assert run(book, "--in-place") == 0
-        assert named(book, "UserChromosome") == named(book, "WhatIf") == list(GENES)
+        assert named(book, "UserChromosome", "WhatIf") == [GENES, GENES]
+    edit(book, typed("SuctionMax", 6))
+    assert run(book, "--in-place") == 0
+    wider = tuple((*genes, 1) for genes in GENES)
+    assert named(book, "UserChromosome", "WhatIf") == [wider, wider]
 
 
 def add_charts(opened: openpyxl.Workbook) -> None:

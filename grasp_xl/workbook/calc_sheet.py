@@ -88,6 +88,16 @@ NUMERIC_INPUTS = (
 )
 """Inputs without which no card has a meaning."""
 
+POSITIVE_INPUTS = (
+    "PartMass",
+    *(labels.field("Force") for labels in KINDS),
+    "ScaleFactor",
+    "MinClearance",
+    "FoSGoal",
+)
+INPUTS_FROM_ZERO = (*(labels.field("Price") for labels in KINDS), "DensityRatio")
+"""Bounds that the reader demands as well."""
+
 
 @dataclass(frozen=True, slots=True)
 class CalcBlock:
@@ -250,9 +260,12 @@ def _inputs(pen: Pen, space: OptionSpace, inputs: dict[str, CellValue]) -> None:
     pen.write(1, INPUT_COLUMN + 2, 0, Style.MARK, f"SUM({flags.absolute})")
     pen.name_area(INPUTS_EDITED, Area(CALC, 1, INPUT_COLUMN + 2))
     row = FIRST_ROW + len(watched) + 1
-    pen.write(row, INPUT_COLUMN, "all are numbers", Style.LABEL)
+    pen.write(row, INPUT_COLUMN, "all are usable", Style.LABEL)
     numbers = f"COUNT({','.join(NUMERIC_INPUTS)})"
-    usable = f"IF({numbers}={len(NUMERIC_INPUTS)},1,0)"
+    bounds = [f"{name}>0" for name in POSITIVE_INPUTS]
+    bounds += [f"{name}>=0" for name in INPUTS_FROM_ZERO]
+    bounds += ["ScaleFactor<=1", 'OR(MomentArm="3d",MomentArm="plan")']
+    usable = f"IF({numbers}={len(NUMERIC_INPUTS)},IF(AND({','.join(bounds)}),1,0),0)"
     pen.write(row, INPUT_COLUMN + 2, 1, Style.MARK, usable)
     pen.name_area(INPUTS_USABLE, Area(CALC, row, INPUT_COLUMN + 2))
 

@@ -108,7 +108,11 @@ def _picker(pen: Pen, result: Result, rows: int, unpicked: Chromosome) -> None:
     pick = Area(VALID_DESIGNS, PICK_ROW, 1)
     pen.write(PICK_ROW, 0, "Row to show", Style.LABEL)
     pen.write(PICK_ROW, 1, None, Style.INPUT)
-    pen.write(PICK_ROW, 2, PICK_HINT, Style.NOTE)
+    in_list = f"AND({PICK_NAME}>=1,{PICK_NAME}<={rows},{PICK_NAME}=INT({PICK_NAME}))"
+    usable = f"IF(ISNUMBER({PICK_NAME}),IF({in_list},1,0),0)"
+    wrong = f"No such row: type a whole number from 1 to {rows}; the best grasp is shown."
+    hint = f'IF(OR({PICK_NAME}="",{usable}=1),"{PICK_HINT}","{wrong}")'
+    pen.write(PICK_ROW, 2, PICK_HINT, Style.NOTE, hint)
     pen.name_area(PICK_NAME, pick)
     pen.sheet.data_validation(
         PICK_ROW,
@@ -132,8 +136,7 @@ def _picker(pen: Pen, result: Result, rows: int, unpicked: Chromosome) -> None:
         for slot, gene in enumerate(unpicked.rows()[number]):
             column = 1 + number * (1 + slots) + slot
             listed = Area(VALID_DESIGNS, TABLE_ROW + 1, column, rows).absolute
-            usable = f"AND(ISNUMBER({PICK_NAME}),{PICK_NAME}>=1,{PICK_NAME}<={rows})"
-            formula = f"IF({usable},INDEX({listed},{PICK_NAME}),{gene})"
+            formula = f"IF({usable}=1,INDEX({listed},{PICK_NAME}),{gene})"
             pen.write(row, 1 + slot, gene, style, None if gene is None else formula)
 
 

@@ -55,7 +55,9 @@ class ExactWorksheet(Worksheet):  # type: ignore[misc]
 class Pen:
     """Writes one sheet, and remembers which cells it filled."""
 
-    def __init__(self, book: xlsxwriter.Workbook, formats: Formats, name: str) -> None:
+    def __init__(
+        self, book: xlsxwriter.Workbook, formats: Formats, name: str, run: str = ""
+    ) -> None:
         self.name = name
         self.sheet = book.add_worksheet(name, ExactWorksheet)
         self.formats = formats
@@ -66,7 +68,8 @@ class Pen:
         self.sheet.set_landscape()
         self.sheet.set_paper(A4)
         self.sheet.fit_to_pages(1, 0)
-        self.sheet.set_footer("&L&F&C&A&RPage &P of &N")
+        self.sheet.set_header(f"&L&F&C&A&R{run}")
+        self.sheet.set_footer("&RPage &P of &N")
 
     def write(
         self,

@@ -152,11 +152,17 @@ def _state(source: Source, space: OptionSpace, logged: dict[str, Value]) -> Stat
     random_state, best_text = str(named(run_log.RANDOM_STATE)), named(run_log.BEST_GRASP)
     load_stream(random_state)
     best = _checked(space, np.array(json.loads(str(best_text)))) if best_text else None
-    changes = _trace(source, space, layout.HISTORY, layout.HISTORY_ROW, logged[CHANGES_LISTED])
+    listed = logged[CHANGES_LISTED]
+    changes = _trace(source, space, layout.HISTORY, layout.HISTORY_ROW, listed)
+    if _whole(listed) >= MAX_HISTORY:
+        changes = _without_repeat(changes)
+    generation = _whole(named(run_log.GENERATIONS_DONE))
+    if generation and not len(changes):
+        raise ValueError("an empty history")
     designs = _trace(source, space, layout.VALID_DESIGNS, layout.TABLE_ROW, logged[DESIGNS_LISTED])
     parent = _checked(space, genes_as_they_stand(source, layout.PARENT_BLOCK))
     return State(
-        generation=_whole(named(run_log.GENERATIONS_DONE)),
+        generation=generation,
         evaluations=_whole(named(run_log.EVALUATIONS)),
         parent=parent,
         random_state=random_state,
@@ -170,22 +176,34 @@ def _state(source: Source, space: OptionSpace, logged: dict[str, Value]) -> Stat
     )
 
 
+def _without_repeat(changes: Trace) -> Trace:
+    """Drop a last row that only says that the fittest did not change up to the last generation."""
+    if len(changes) > 1 and np.array_equal(changes.genes[-1], changes.genes[-2]):
+        return Trace(changes.generation[:-1], changes.genes[:-1])
+    return changes
+
+
 def _check(state: State, logged: dict[str, Value]) -> None:
-    """Check that the lists are whole, and the history goes from generation 1 to the parent."""
-    for trace, label in ((state.changes, CHANGES_LISTED), (state.designs, DESIGNS_LISTED)):
-        if len(trace) != logged[label]:
-            raise ValueError(f"{len(trace)} rows, not {logged[label]}: {label}")
-        if (np.diff(trace.generation) <= 0).any():
-            raise ValueError("generations that do not rise")
-    genes, parent = state.changes.genes, state.parent.genes
-    if not len(genes):
-        return
-    if not np.array_equal(genes[-1], parent):
-        raise ValueError("the parent is not the last of the history")
-    if len(genes) < MAX_HISTORY and state.changes.generation[0] != 1:
-        raise ValueError("the history does not begin with generation 1")
-    if state.best and len(genes) > 1 and np.array_equal(genes[-2], parent):
-        raise ValueError("a row of the history is missing")
+    """Check that the lists are whole, and that the history goes from generation 1 to the parent.
+
+    A history that was too long for its sheet has gaps.
+    """
+    changes, parent = state.changes, state.parent.genes
+    n = len(changes)
+    gaps = _whole(logged[CHANGES_LISTED]) >= MAX_HISTORY
+    repeated = state.best and n > 1 and np.array_equal(changes.genes[-2], parent)
+    faults = {
+        "a row of the designs is missing": len(state.designs) != logged[DESIGNS_LISTED],
+        "a row of the history is missing": not gaps and (repeated or n != logged[CHANGES_LISTED]),
+        "the history does not begin": n and not gaps and changes.generation[0] != 1,
+        "the history does not end with the parent": n and (changes.genes[-1] != parent).any(),
+        "a list was sorted": any(
+            (np.diff(trace.generation) <= 0).any() for trace in (changes, state.designs)
+        ),
+    }
+    for fault, found in faults.items():
+        if found:
+            raise ValueError(fault)
 
 
 def _whole(value: Value) -> int:

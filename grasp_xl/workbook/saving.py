@@ -60,7 +60,7 @@ def check_place(target: Path, suffix: str, *, force: bool) -> None:
                     where=str(target),
                     hint=f"Close it there; if it is not open, delete {lock.name} or add --force",
                 )
-    except OSError as error:
+    except (OSError, RuntimeError) as error:  # RuntimeError: a link that leads to itself
         raise _cannot_write(target, error) from error
     if target.suffix.lower() != suffix:
         raise UsageError(
@@ -160,9 +160,10 @@ def _mode(target: Path) -> int:
     return 0o666 & ~mask
 
 
-def _cannot_write(target: Path, error: OSError) -> OutputError:
-    unknown = (error.strerror or "an unknown failure", "choose another name or folder")
-    reason, hint = REASONS.get(error.errno or 0, unknown)
+def _cannot_write(target: Path, error: OSError | RuntimeError) -> OutputError:
+    told = getattr(error, "strerror", None) or str(error) or "an unknown failure"
+    unknown = (told, "choose another name or folder")
+    reason, hint = REASONS.get(getattr(error, "errno", None) or 0, unknown)
     return OutputError(
         f"{target} cannot be written: {reason}; what stood there before is untouched.",
         where=str(target),
@@ -188,7 +189,6 @@ OBJECTS = {
 
 INPUTS = (*layout.PARAMETERS, layout.USER_BLOCK)
 """Inputs on the sheet ``GA``."""
-
 
 LOG_COLUMNS = 2
 """The run log is ours in these columns, however many warnings it has."""

@@ -58,7 +58,11 @@ def full_workbook(
     file = io.BytesIO()
     book = _new_book(file)
     formats = Formats(book)
-    pens = {name: Pen(book, formats, name) for name in layout.SHEETS}
+    run = (
+        f"Seed {task.settings.seed}, {result.state.generation:,} generations, "
+        f"{origin.ended:%Y-%m-%d %H:%M}"
+    )
+    pens = {name: Pen(book, formats, name, run) for name in layout.SHEETS}
     write_option_space(pens[layout.OPTION_SPACE], task.space, live=True)
     cards = write_ga(pens[layout.GA], plan, task, result, shown)
     write_valid_designs(pens[layout.VALID_DESIGNS], book, result, best.chromosome)
