@@ -64,7 +64,20 @@ NO_GOAL = "A goal is empty or no number: look at the goals and the user-defined 
 
 FUNCTIONS = {
     *("ABS", "AND", "COLUMN", "COUNT", "IF", "INDEX", "INT", "ISBLANK", "ISNUMBER", "LEFT", "MAX"),
-    *("MIN", "N", "NA", "NOT", "OR", "ROUND", "ROW", "SEARCH", "SQRT", "SUM", "SUMPRODUCT", "SUMSQ"),
+    *(
+        "MIN",
+        "N",
+        "NA",
+        "NOT",
+        "OR",
+        "ROUND",
+        "ROW",
+        "SEARCH",
+        "SQRT",
+        "SUM",
+        "SUMPRODUCT",
+        "SUMSQ",
+    ),
     "TRIM",
 }
 """All that formulas may use: each is in Excel 2016 and LibreOffice 7.4, and none is volatile."""
