@@ -23,16 +23,16 @@ ROWS, FIRST_CARD_ROW = 63, 20
 
 
 def rendered(folder: Path, title: str) -> Image.Image:
-    """Return the page that begins with a title, without its margins and footer."""
+    """Return the page that has a title, without its margins, header and footer."""
     command = ["soffice", "--headless", "--convert-to", "pdf", "--outdir", str(folder), str(RESULT)]
     subprocess.run(command, check=True, capture_output=True)
     pdf = folder / f"{RESULT.stem}.pdf"
     told = subprocess.run(["pdftotext", pdf, "-"], check=True, capture_output=True, text=True)
-    number = next(n for n, page in enumerate(told.stdout.split("\f"), 1) if page.startswith(title))
+    number = next(n for n, page in enumerate(told.stdout.split("\f"), 1) if title in page)
     pages = ["-f", str(number), "-l", str(number), "-r", str(DPI), "-png", "-singlefile"]
     subprocess.run(["pdftoppm", *pages, pdf, folder / "page"], check=True)
     page = Image.open(folder / "page.png").convert("RGB")
-    page = page.crop((0, 0, page.width, int(page.height * 0.93)))
+    page = page.crop((0, int(page.height * 0.052), page.width, int(page.height * 0.93)))
     return trimmed(page)
 
 
@@ -51,7 +51,7 @@ def main() -> None:
         top = ga.height * (FIRST_CARD_ROW - 0.5) / ROWS
         card = trimmed(ga.crop((int(left) - 5, int(top), int(right) + 2, ga.height)))
         card.save(DOCS / "card.png", optimize=True)
-        grasp = rendered(Path(folder), "GRASP")
+        grasp = rendered(Path(folder), "GRASP: ")
         grasp.thumbnail((1800, 1800))
         grasp.save(DOCS / "grasp.png", optimize=True)
 
