@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -54,8 +54,9 @@ def warnings(found: Sequence[Problem]) -> None:
 
 def compile_notice(*, quiet: bool) -> None:
     """Say why the first run on a machine takes longer."""
-    if not quiet and not is_compiled():
-        _err.print("Compiling the search for this machine, once: about 10 seconds ...")
+    with suppress(OSError):  # a cache that may not be read is no reason to fail
+        if not quiet and not is_compiled():
+            _err.print("Compiling the search for this machine, once: about 10 seconds ...")
 
 
 class SearchBar:

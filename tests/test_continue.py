@@ -110,6 +110,19 @@ def test_splits_change_nothing_without_elitism(
     assert content(parts) == content(at_once(export, 300, *options))
 
 
+def test_lists_too_long_for_their_sheets_go_on(
+    export: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The newest rows are listed, and what the fitness table needs."""
+    for module in ("history_sheet", "run_log", "reading_run"):
+        monkeypatch.setattr(f"grasp_xl.workbook.{module}.MAX_HISTORY", 40)
+    for module in ("designs_sheet", "run_log"):
+        monkeypatch.setattr(f"grasp_xl.workbook.{module}.MAX_DESIGNS", 3)
+    options = ("--no-elitism", "--seed", "3", "--goals", "1000,90000,900,9000")
+    parts = in_parts(export, [90, 150, 1200], *options)
+    assert content(parts) == content(at_once(export, 1200, *options))
+
+
 def test_a_run_with_options_goes_on_without_them(export: Path) -> None:
     """The workbook says them."""
     options = "--goals 60,9000,40,700 --fos 2 --clearance 47 --one-in 3 --density-ratio 2 --seed 4"
