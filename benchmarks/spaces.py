@@ -77,6 +77,48 @@ def frame_grid(pitch_mm: float, margin_mm: float) -> FloatArray:
     return frozen(np.round(np.column_stack([x, y, z])[kept], 6))
 
 
+PANEL_PITCHES_MM = (40.0, 30.0, 20.0, 15.0, 10.0, 7.0)
+"""Pitches that the exact search is measured at."""
+
+WINDOWS_MM = ((-350.0, 0.0), (350.0, 0.0))
+WINDOW_HALF_MM = 250.0
+HOLES_MM = tuple((x, 350.0) for x in range(-600, 601, 100))
+HOLE_RADIUS_MM = 20.0
+
+
+def panel(pitch_mm: float, most: int = 5) -> OptionSpace:
+    """Return a panel of 1400 x 900 mm and 27 kg, with two windows and a row of holes.
+
+    Its weight needs four cups and four magnets, or more; ``most`` is the largest count of a kind.
+    """
+    corners = [(x, y, 0.0) for x, y in ((650, 400), (650, -400), (-650, -400), (-650, 400))]
+    return OptionSpace(
+        part=Part(27000.0, frozen([6.3, -11.9, 2.5])),
+        kinds=(
+            ElementKind("suction", 69.0, 10.0, 1, most, panel_places(pitch_mm, 23.0), 15.0, 46.0),
+            ElementKind("magnets", 130.0, 30.0, 1, most, panel_places(pitch_mm, 0.0), 110.0, 30.0),
+        ),
+        approximation_polygon_mm=frozen(corners),
+        scale_factor=0.65,
+    )
+
+
+def panel_places(pitch_mm: float, margin_mm: float) -> FloatArray:
+    """Grid points of the panel at least so far from its edges, ``(n, 3)`` (mm)."""
+    xs, ys = (np.linspace(half, -half, int(2 * half / pitch_mm + 1e-9)) for half in (700.0, 450.0))
+    x, y = np.repeat(xs, len(ys)), np.tile(ys, len(xs))
+    kept = (np.abs(x) <= 700.0 - margin_mm) & (np.abs(y) <= 450.0 - margin_mm)
+    for middle_x, middle_y in WINDOWS_MM:
+        away = np.hypot(
+            np.maximum(0.0, np.abs(x - middle_x) - WINDOW_HALF_MM),
+            np.maximum(0.0, np.abs(y - middle_y) - WINDOW_HALF_MM),
+        )
+        kept &= away > margin_mm
+    for middle_x, middle_y in HOLES_MM:
+        kept &= np.hypot(x - middle_x, y - middle_y) > HOLE_RADIUS_MM + margin_mm
+    return frozen(np.round(np.column_stack([x, y, np.zeros(len(x))])[kept], 6))
+
+
 def settled(space: OptionSpace) -> Task:
     """Return the space with every default filled in and the program's benchmark grasp."""
     return settle(space, Parameters(), None)

@@ -1,36 +1,35 @@
-"""The exact search: the best grasp of all, with proof (branch and bound).
+"""The exact search: the best grasp of all, with proof (branch and bound, docs/exact.md).
 
-Best first over nodes (counts, box, box); a fixed number of nodes is expanded at once, on all cores,
-and their outcomes are taken up in order, so that the result does not depend on thread timing.
+Best first over nodes (counts, a box for each element); a fixed number of nodes is expanded at once,
+on all cores, and their outcomes are taken up in order, so that the result does not depend on thread
+timing.
 """
 
 from __future__ import annotations
 
-import heapq
-import itertools
 import math
 import os
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from grasp_xl.chromosome import Chromosome, from_active
 from grasp_xl.grasp import Grasp, evaluate
-from grasp_xl.kernels import RecordArray, boundary_distances
 from grasp_xl.rules import SLACK, Rules
+from grasp_xl.search.exact_bound import make_room, node_bound
 from grasp_xl.search.exact_kernel import (
-    NODE,
-    PAIR_BUDGET,
-    WEIGHTS,
-    Locations,
-    Scratch,
+    Nodes,
     expand,
-    grow_tree,
+    make_nodes,
+    put_children,
+    take_batch,
 )
+from grasp_xl.search.exact_leaf import ENTRIES
+from grasp_xl.search.exact_model import locate, weigh, weigh_goals
 from grasp_xl.search.feasibility import lifting_counts
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
 
@@ -41,6 +40,16 @@ BATCH = 64
 
 PROOF = 1e-9
 """Relative accuracy of the proof: no grasp is better by more than that."""
+
+FEW_ELEMENTS = 3
+FEW_BATCHES = 64
+"""The first batches look at grasps of few elements only: a good one is found there at once."""
+
+ROOT_STEPS = 60
+"""Steps of the multipliers where they begin."""
+
+MAX_OPEN = 4_000_000
+"""Open nodes that are kept, about 0.7 GB; a search that needs more stops with a true bound."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,70 +106,8 @@ class Proof:
         return max(0.0, (best - self.bound) / max(abs(best), 1e-300))
 
 
-NodeRow = tuple[Any, ...]
-"""The fields of a ``NODE``, as Python numbers."""
-
-
-class Found(NamedTuple):
-    """A grasp met in the search: its value, and its sorted active indices a kind."""
-
-    value: float
-    active: tuple[tuple[int, ...], ...]
-
-
-class _Outcome(NamedTuple):
-    """What expanding some nodes gave; rows as in ``exact_kernel.expand``."""
-
-    children: RecordArray
-    found: FloatArray
-    genes: IntArray
-    nodes: RecordArray
-
-
-def locate(space: OptionSpace, rules: Rules) -> Locations:
-    """Merge footprints at one place into locations, and lay a kd-tree over them."""
-    places: dict[tuple[float, ...], list[int]] = {}
-    for number, kind in enumerate(space.kinds):
-        for index, point in enumerate(kind.footprints_mm.tolist()):
-            places.setdefault(tuple(point), [-1, -1])[number] = index
-    points = np.array(list(places), dtype=np.float64).reshape(-1, 3)
-    footprint = np.array(list(places.values()), dtype=np.int64).reshape(-1, 2)
-    order, box, run, child = grow_tree(points[:, :2] - space.part.centroid_mm[:2])
-    deviation = boundary_distances(points, np.array(space.ideal_polygon_mm))
-    xyz = points - space.part.centroid_mm
-    if rules.requirements.moment_arm == "plan":
-        xyz[:, 2] = 0.0
-    return Locations(
-        np.ascontiguousarray(xyz[order]), deviation[order], footprint[order], box, run, child
-    )
-
-
-def weigh(
-    space: OptionSpace, rules: Rules, choices: Sequence[tuple[int, ...]], *, caps: bool
-) -> RecordArray:
-    """Return the weights of the terms, a row for each choice of counts."""
-    scales, goals, weight = rules.scales, rules.goals, space.part.weight_n
-    prices = [kind.price for kind in space.kinds]
-    forces = [kind.force_n for kind in space.kinds]
-
-    def cap(term: str, unit: float) -> float:
-        return getattr(goals.base, term) / unit if caps and term not in goals.dropped else math.inf
-
-    rows = np.zeros(len(choices), dtype=WEIGHTS)
-    for row, counts in zip(rows, choices, strict=True):
-        elements, force = sum(counts), _dot(counts, forces)
-        row["cups"], row["magnets"] = counts
-        row["base"] = _dot(counts, prices) / scales.cost
-        row["moment"] = weight / scales.moment
-        row["deviation"] = 1.0 / (elements * scales.deviation)
-        row["structure"] = 1.0 / scales.structure
-        row["cup_pull"], row["magnet_pull"] = (each / force for each in forces)
-        row["ratio"] = rules.requirements.density_ratio
-        row["clearance"] = rules.requirements.clearance_mm
-        row["arm_cap"] = cap("moment", weight)
-        row["deviation_cap"] = cap("deviation", 1.0 / elements)
-        row["structure_cap"] = cap("structure", 1.0)
-    return rows
+OnBound = Callable[[float, float | None], None]
+"""Given the bound and the best value so far."""
 
 
 def solve(
@@ -170,7 +117,7 @@ def solve(
     *,
     known: Sequence[Chromosome] = (),
     stop: Callable[[], bool] = lambda: False,
-    on_progress: Callable[[float, float | None], None] | None = None,
+    on_progress: OnBound | None = None,
 ) -> Proof:
     """Find the best grasp of all, and prove that there is no better one.
 
@@ -182,15 +129,72 @@ def solve(
     known : sequence of Chromosome
         Feasible grasps that are known already; better ones are looked for.
     stop : callable
-        Asked a few times a second; True ends the search with what is proved by then.
+        Asked many times a second; True ends the search with what is proved by then.
     on_progress : callable, optional
-        Given the bound and the best value so far.
 
     Returns
     -------
     Proof
     """
     return _Search(space, rules, settings or ExactSettings(), known).run(stop, on_progress)
+
+
+class Found(NamedTuple):
+    """A grasp met in the search: its value, and its sorted active indices a kind."""
+
+    value: float
+    active: tuple[tuple[int, ...], ...]
+
+
+class _Frontier:
+    """Open nodes, best bound first."""
+
+    def __init__(self, elements: int) -> None:
+        self._nodes = make_nodes(0, elements)
+        self._order = np.zeros(0, dtype=np.int64)
+        self._age = np.zeros(0, dtype=np.int64)
+        self._size = 0
+        self._born = 0
+
+    def __len__(self) -> int:
+        return self._size
+
+    @property
+    def bound(self) -> float:
+        """Least bound, infinity where no node is open."""
+        return float(self._nodes.bound[self._order[0]]) if self._size else math.inf
+
+    def take(self, batch: Nodes, below: float) -> int:
+        """Move the first nodes below a bound into a batch; return how many."""
+        taken = take_batch(self._nodes, self._order, self._age, self._size, batch, below)
+        self._size -= taken
+        return taken
+
+    def put(self, children: Nodes, born: IntArray, below: float) -> None:
+        """Take in all children with a bound below a limit."""
+        self._make_room(int(born.sum()))
+        size = put_children(
+            *(self._nodes, self._order, self._age, self._size, self._born),
+            *(children, born, below),
+        )
+        self._born += size - self._size
+        self._size = size
+
+    def clear(self) -> None:
+        """Drop all nodes."""
+        self._size = 0
+
+    def _make_room(self, more: int) -> None:
+        capacity = len(self._order)
+        if self._size + more <= capacity:
+            return
+        new = max(1024, capacity, more)
+        old = self._nodes
+        self._nodes = make_nodes(capacity + new, old.boxes.shape[1])
+        for kept, field in zip(self._nodes, old, strict=True):
+            kept[:capacity] = field
+        self._age = np.concatenate([self._age, np.zeros(new, dtype=np.int64)])
+        self._order = np.concatenate([self._order, np.arange(capacity, capacity + new)])
 
 
 class _Search:
@@ -203,20 +207,20 @@ class _Search:
     ) -> None:
         self.space, self.rules, self.settings = space, rules, settings
         self.began = time.perf_counter()
-        self.locations = locate(space, rules)
-        self.numbers = itertools.count()
-        self.heap: list[tuple[float, int, NodeRow]] = []
         self.pool: list[Found] = []
-        self.expanded = 0
-        caps = settings.meet_goals
+        self.expanded = self.batches = 0
         self.counts = [
             counts
             for counts in lifting_counts(space, rules.requirements)
             if sum(counts) >= settings.min_elements and self._affordable(counts)
         ]
-        self.weights = weigh(space, rules, self.counts, caps=caps)
+        self.elements = max(map(sum, self.counts), default=1)
         for chromosome in known:
             self._take_known(chromosome)
+        self.locations = locate(space, rules)
+        self.weights = weigh(space, rules, self.counts, caps=settings.meet_goals)
+        self.goal_weights = weigh_goals(space, rules, self.counts if settings.meet_goals else [])
+        self.few, self.many = _Frontier(self.elements), _Frontier(self.elements)
 
     def _affordable(self, counts: tuple[int, ...]) -> bool:
         if not self.settings.meet_goals or "cost" in self.rules.goals.dropped:
@@ -239,6 +243,11 @@ class _Search:
         full = len(self.pool) >= self.settings.top
         return self.pool[-1].value if full else math.inf
 
+    @property
+    def slack(self) -> float:
+        """Nodes whose bound is within this of the upper value are not expanded."""
+        return PROOF * abs(self.upper) if self.upper < math.inf else 0.0
+
     def _take(self, found: Found) -> None:
         """Enter a grasp: values within 1e-9 are equal, and then the smaller indices come first."""
         if any(other.active == found.active for other in self.pool):
@@ -249,80 +258,85 @@ class _Search:
 
     # --- the search ---
 
-    def run(
-        self,
-        stop: Callable[[], bool],
-        on_progress: Callable[[float, float | None], None] | None,
-    ) -> Proof:
+    def run(self, stop: Callable[[], bool], on_progress: OnBound | None) -> Proof:
         """Expand nodes until none is left that could hold a better grasp, or somebody stops."""
         workers = os.cpu_count() or 1
-        rooms = [self._room() for _ in range(workers)]
+        rooms = [make_room(len(self.locations.xyz), self.elements, ENTRIES) for _ in range(workers)]
+        batch = make_nodes(BATCH, self.elements)
+        children = make_nodes((BATCH, self.elements + 1), self.elements)
+        born = np.zeros(BATCH, dtype=np.int64)
+        found = np.zeros((BATCH, self.settings.top))
+        genes = np.zeros((BATCH, self.settings.top, self.elements, 2), dtype=np.int64)
         self._start()
-        stopped = False
         with ThreadPoolExecutor(workers) as threads:
-            while self._worth_while() and not stopped:
-                batch = [heapq.heappop(self.heap)[2] for _ in range(min(BATCH, len(self.heap)))]
-                shares = [batch[number::workers] for number in range(workers)]
-                outcomes = list(threads.map(self._expand, shares, rooms))
-                for number in range(len(batch)):
-                    self._absorb(outcomes[number % workers], number // workers)
-                self.expanded += len(batch)
+
+            def work(worker: int) -> None:
+                expand(
+                    self.locations,
+                    self.weights,
+                    self.goal_weights,
+                    batch,
+                    taken,
+                    worker,
+                    workers,
+                    upper,
+                    slack,
+                    children,
+                    born,
+                    found,
+                    genes,
+                    rooms[worker],
+                )
+
+            while not (stop() or self._out_of_time() or self._close_enough()):
+                upper, slack = self.upper, self.slack
+                frontier = self._next_frontier()
+                taken = frontier.take(batch, upper - slack)
+                if taken == 0:
+                    self.few.clear()
+                    self.many.clear()
+                    break
+                list(threads.map(work, range(workers)))
+                for i in range(taken):
+                    self._take_all(found[i], genes[i], sum(self.counts[batch.choice[i]]), upper)
+                frontier.put(children, born[:taken], self.upper - self.slack)
+                self.expanded += taken
+                self.batches += 1
                 if on_progress:
                     on_progress(self.bound, self.pool[0].value if self.pool else None)
-                stopped = stop() or self._out_of_time() or self._close_enough()
         return self._proof()
 
-    def _worth_while(self) -> bool:
-        if self.heap and self.heap[0][0] >= self.upper - self._slack():
-            self.heap.clear()
-        return bool(self.heap)
+    def _start(self) -> None:
+        """Open the root nodes: one for each choice of counts, with all elements in the root box."""
+        room = make_room(len(self.locations.xyz), self.elements, 1)
+        for number, counts in enumerate(self.counts):
+            root = make_nodes((1, 1), self.elements)
+            root.choice[:] = number
+            root.bound[:] = node_bound(
+                *(self.locations, self.weights[number], root.boxes[0, 0], self.upper),
+                *(root.u[0, 0, 0], ROOT_STEPS, room),
+            )
+            frontier = self.few if sum(counts) <= FEW_ELEMENTS else self.many
+            frontier.put(root, np.ones(1, dtype=np.int64), self.upper - self.slack)
 
-    def _slack(self) -> float:
-        return PROOF * abs(self.upper) if self.upper < math.inf else 0.0
+    def _next_frontier(self) -> _Frontier:
+        first = self.batches < FEW_BATCHES and self.few.bound < self.upper - self.slack
+        return self.few if first or self.few.bound < self.many.bound else self.many
 
-    def _expand(self, share: list[NodeRow], room: Scratch) -> _Outcome:
-        """Expand some nodes; runs beside other threads, and changes nothing of the search."""
-        top, elements = self.settings.top, max(map(sum, self.counts))
-        outcome = _Outcome(
-            np.zeros((len(share), 3), dtype=NODE),
-            np.zeros((len(share), top)),
-            np.zeros((len(share), top, elements, 2), dtype=np.int64),
-            np.array(share, dtype=NODE),
-        )
-        expand(
-            self.locations,
-            self.weights,
-            outcome.nodes,
-            self.upper,
-            self._slack(),
-            outcome.children,
-            outcome.found,
-            outcome.genes,
-            room,
-        )
-        return outcome
-
-    def _absorb(self, outcome: _Outcome, row: int) -> None:
-        """Take up what one node gave."""
-        elements = sum(self.counts[int(outcome.nodes[row]["counts"])])
-        upper = self.upper
-        for value, genes in zip(outcome.found[row], outcome.genes[row], strict=True):
+    def _take_all(self, values: FloatArray, genes: IntArray, elements: int, upper: float) -> None:
+        for value, rows in zip(values.tolist(), genes, strict=True):
             if value < upper:
-                self._take(Found(float(value), self._active(genes[:elements])))
-        for child in outcome.children[row].tolist():
-            if child[0] < self.upper - self._slack():
-                self._push(child)
-
-    def _push(self, node: NodeRow) -> None:
-        heapq.heappush(self.heap, (node[0], next(self.numbers), node))
+                self._take(Found(value, self._active(rows[:elements])))
 
     @property
     def bound(self) -> float:
         """Value below which there is no grasp, as far as proved."""
         best = self.pool[0].value if self.pool else math.inf
-        return min(best, self.heap[0][0]) if self.heap else best
+        return min(best, self.few.bound, self.many.bound)
 
     def _out_of_time(self) -> bool:
+        if len(self.few) + len(self.many) > MAX_OPEN:
+            return True
         return time.perf_counter() - self.began >= self.settings.time_limit_s
 
     def _close_enough(self) -> bool:
@@ -332,7 +346,7 @@ class _Search:
         return last - self.bound <= self.settings.gap * abs(last)
 
     def _proof(self) -> Proof:
-        done = not self.heap
+        done = not self.few and not self.many
         status: Status
         if self.pool:
             status = "optimal" if done else "feasible"
@@ -346,34 +360,6 @@ class _Search:
         seconds = time.perf_counter() - self.began
         return Proof(status, bound, designs, seconds, self.expanded)
 
-    def _room(self) -> Scratch:
-        n = len(self.locations.xyz)
-        return Scratch(
-            np.empty(n, dtype=np.int64), np.empty(n), np.empty(n), np.empty(n, dtype=np.int64)
-        )
-
-    def _start(self) -> None:
-        for number, counts in enumerate(self.counts):
-            if sum(counts) == 1:
-                self._single_elements(number)
-            else:
-                self._push((-math.inf, number, 0, 0, 0.0, 0.0, 0.0, 0.0, PAIR_BUDGET))
-
-    def _single_elements(self, number: int) -> None:
-        """Judge every grasp of one element."""
-        kind = self.counts[number].index(1)
-        weights, loc = self.weights[number], self.locations
-        arm = np.sqrt((loc.xyz**2).sum(axis=1))
-        value = weights["base"] + weights["moment"] * arm + weights["deviation"] * loc.deviation
-        usable = loc.footprint[:, kind] >= 0
-        usable &= arm <= weights["arm_cap"] * (1 + SLACK)
-        usable &= loc.deviation <= weights["deviation_cap"] * (1 + SLACK)
-        places = np.flatnonzero(usable)
-        for place in places[np.argsort(value[places], kind="stable")][: self.settings.top]:
-            active: list[tuple[int, ...]] = [()] * len(self.space.kinds)
-            active[kind] = (int(loc.footprint[place, kind]) + 1,)
-            self._take(Found(float(value[place]), tuple(active)))
-
     def _active(self, rows: IntArray) -> tuple[tuple[int, ...], ...]:
         active: list[list[int]] = [[] for _ in self.space.kinds]
         for place, kind in rows.tolist():
@@ -384,7 +370,3 @@ class _Search:
 def _rounded(value: float) -> float:
     """Round to nine significant digits, so that equal values sort by their grasps."""
     return float(f"{value:.9g}")
-
-
-def _dot(counts: Sequence[int], numbers: Sequence[float]) -> float:
-    return sum(count * number for count, number in zip(counts, numbers, strict=True))

@@ -1,0 +1,229 @@
+"""The exact search's view of a task: places in a kd-tree, and the criteria as weights.
+
+A *location* is a place with the footprint of each kind that it has.  A *box* is a node of the
+kd-tree over all locations.  For fixed counts the value of a grasp is a weighted sum of its centre
+of force's arm, its elements' deviations and its truss (algorithm.md, "Exact search").
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from grasp_xl.compiled import compiled
+from grasp_xl.kernels import RecordArray, boundary_distances
+from grasp_xl.rules import SLACK, Rules
+from grasp_xl.space import FloatArray, IntArray, OptionSpace
+
+CUPS, MAGNETS = 0, 1
+"""The two kinds, by their number; the names are the thesis's."""
+
+WEIGHTS = np.dtype(
+    [
+        ("cups", "i8"),
+        ("magnets", "i8"),
+        ("trussed", "i8"),
+        ("base", "f8"),
+        ("moment", "f8"),
+        ("deviation", "f8"),
+        ("structure", "f8"),
+        ("cup_pull", "f8"),
+        ("magnet_pull", "f8"),
+        ("ratio", "f8"),
+        ("clearance", "f8"),
+        ("shortest", "f8"),
+        ("arm_cap", "f8"),
+        ("deviation_cap", "f8"),
+        ("structure_cap", "f8"),
+        ("limit", "f8"),
+    ]
+)
+"""The value of a grasp of fixed counts, as weights of its terms.
+
+trussed is 1 where the main truss matters; base is the cost term; moment, deviation and structure
+weigh a millimetre (of the centre of force's arm, of one element's deviation, of truss); pull is
+force over total force of one element; ratio is R of eq. 7; clearance is the least distance of two
+elements and shortest the least main truss (mm); the caps limit the arm, the summed deviation and
+the structure (mm), infinite where goals need not be met; a grasp with a value above limit is of no
+use.
+"""
+
+
+class Locations(NamedTuple):
+    """All places, in the order of a kd-tree, so that a box is a run of them.
+
+    xyz ``(n, 3)`` seen from the part's centroid (mm), z = 0 with the plan arm; deviation ``(n,)``;
+    footprint ``(n, 2)`` 0-based footprint of each kind, -1 for none.  Of each box: corners
+    ``(m, 4)`` xmin, ymin, xmax, ymax; run ``(m, 2)`` its first and behind its last location; child
+    ``(m, 2)`` boxes, -1 at a single location; heights ``(m, 2)`` least and largest z;
+    least_deviation ``(m,)``; carries ``(m, 2)`` whether it has a footprint of each kind; tight
+    ``(m,)`` whether no two of its locations keep the clearance.
+    """
+
+    xyz: FloatArray
+    deviation: FloatArray
+    footprint: IntArray
+    corners: FloatArray
+    run: IntArray
+    child: IntArray
+    heights: FloatArray
+    least_deviation: FloatArray
+    carries: NDArray[np.bool_]
+    tight: NDArray[np.bool_]
+
+
+def locate(space: OptionSpace, rules: Rules) -> Locations:
+    """Merge footprints at one place into locations, and lay a kd-tree over them."""
+    places: dict[tuple[float, ...], list[int]] = {}
+    for number, kind in enumerate(space.kinds):
+        for index, point in enumerate(kind.footprints_mm.tolist()):
+            places.setdefault(tuple(point), [-1, -1])[number] = index
+    points = np.array(list(places), dtype=np.float64).reshape(-1, 3)
+    footprint = np.array(list(places.values()), dtype=np.int64).reshape(-1, 2)
+    deviation = boundary_distances(points, np.array(space.ideal_polygon_mm))
+    xyz = points - space.part.centroid_mm
+    if rules.requirements.moment_arm == "plan":
+        xyz[:, 2] = 0.0
+    order, corners, run, child = grow_tree(xyz)
+    xyz, deviation, footprint = np.ascontiguousarray(xyz[order]), deviation[order], footprint[order]
+    starts = run[:, 0]
+    summed = [slice(first, last) for first, last in run.tolist()]
+    clearance = rules.requirements.clearance_mm * (1 - SLACK)
+    sides = corners[:, 2:] - corners[:, :2]
+    return Locations(
+        xyz,
+        deviation,
+        footprint,
+        corners,
+        run,
+        child,
+        np.array([[xyz[part, 2].min(), xyz[part, 2].max()] for part in summed]).reshape(
+            len(starts), 2
+        ),
+        np.array([deviation[part].min() for part in summed]),
+        np.array([(footprint[part] >= 0).any(axis=0) for part in summed]).reshape(len(starts), 2),
+        (sides**2).sum(axis=1) < clearance**2,
+    )
+
+
+@compiled
+def grow_tree(xyz: FloatArray) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
+    """Build a kd-tree in plan view down to single points: point order, corners, runs, children."""
+    n = len(xyz)
+    order = np.arange(n)
+    corners, run = np.empty((2 * n, 4)), np.empty((2 * n, 2), dtype=np.int64)
+    child = np.full((2 * n, 2), -1)
+    run[0] = 0, n
+    boxes, done = 1, 0
+    while done < boxes:
+        first, last = run[done]
+        points = xyz[order[first:last]]
+        corners[done, 0], corners[done, 1] = points[:, 0].min(), points[:, 1].min()
+        corners[done, 2], corners[done, 3] = points[:, 0].max(), points[:, 1].max()
+        if last - first > 1:
+            box = corners[done]
+            axis = 0 if box[2] - box[0] >= box[3] - box[1] else 1
+            by = np.argsort(points[:, axis], kind="mergesort")
+            order[first:last] = order[first:last][by]
+            middle = (first + last) // 2
+            for side in range(2):
+                child[done, side] = boxes
+                run[boxes] = (first, middle) if side == 0 else (middle, last)
+                boxes += 1
+        done += 1
+    return order, corners[:boxes], run[:boxes], child[:boxes]
+
+
+def weigh(
+    space: OptionSpace, rules: Rules, choices: Sequence[tuple[int, ...]], *, caps: bool
+) -> RecordArray:
+    """Return the value to minimise as weights, ``(len(choices),)`` of ``WEIGHTS``.
+
+    With ``caps``, only grasps that meet every goal are of use.
+    """
+    scales = rules.scales
+    rows = np.zeros(len(choices), dtype=WEIGHTS)
+    for row, counts in zip(rows, choices, strict=True):
+        _fill(row, space, rules, counts, caps=caps)
+        row["base"] = _dot(counts, [kind.price for kind in space.kinds]) / scales.cost
+        row["moment"] = space.part.weight_n / scales.moment
+        row["deviation"] = 1.0 / (sum(counts) * scales.deviation)
+        row["structure"] = 1.0 / scales.structure
+        row["trussed"] = sum(counts) > 1 and (
+            row["structure"] > 0 or row["structure_cap"] < math.inf
+        )
+    return rows
+
+
+def weigh_goals(
+    space: OptionSpace, rules: Rules, choices: Sequence[tuple[int, ...]]
+) -> RecordArray:
+    """Return the sum of all criteria over their goals, as weights.
+
+    A grasp that meets every goal has at most as much as there are goals: a bound above that limit
+    shows that no grasp of a node meets them.
+    """
+    goals = rules.goals
+    rows = np.zeros(len(choices), dtype=WEIGHTS)
+    for row, counts in zip(rows, choices, strict=True):
+        _fill(row, space, rules, counts, caps=True)
+        per_goal = {
+            "moment": space.part.weight_n,
+            "deviation": 1.0 / sum(counts),
+            "structure": 1.0,
+        }
+        for term, unit in per_goal.items():
+            if term not in goals.dropped:
+                row[term] = unit / getattr(goals.base, term)
+                row["limit"] += 1.0
+        row["limit"] *= 1 + 2 * SLACK
+        row["trussed"] = sum(counts) > 1 and row["structure_cap"] < math.inf
+    return rows
+
+
+def _fill(
+    row: np.void, space: OptionSpace, rules: Rules, counts: tuple[int, ...], *, caps: bool
+) -> None:
+    """Fill what does not depend on the criterion."""
+    goals, elements = rules.goals, sum(counts)
+    forces = [kind.force_n for kind in space.kinds]
+
+    def cap(term: str, unit: float) -> float:
+        return getattr(goals.base, term) / unit if caps and term not in goals.dropped else math.inf
+
+    row["cups"], row["magnets"] = counts
+    row["cup_pull"], row["magnet_pull"] = (each / _dot(counts, forces) for each in forces)
+    row["ratio"] = rules.requirements.density_ratio
+    row["clearance"] = rules.requirements.clearance_mm * (1 - SLACK)
+    row["shortest"] = row["clearance"] * least_spread(elements)
+    row["arm_cap"] = cap("moment", space.part.weight_n) * (1 + SLACK)
+    row["deviation_cap"] = cap("deviation", 1.0 / elements) * (1 + SLACK)
+    row["structure_cap"] = cap("structure", 1.0) * (1 + SLACK)
+    if not caps:
+        row["limit"] = math.inf
+
+
+def least_spread(points: int) -> float:
+    """Return a lower bound on the diameter of a set of points at least 1 apart.
+
+    Exact up to seven points (Bateman and Erdos, 1951); beyond, the convex hull has at least the
+    area and perimeter of Oler's inequality (1961), and a set of diameter d at most those of a disc.
+
+    Examples
+    --------
+    >>> [round(least_spread(points), 3) for points in (1, 2, 4, 5, 7, 10)]
+    [0.0, 1.0, 1.414, 1.618, 2.0, 2.401]
+    """
+    exact = [0.0, 0.0, 1.0, 1.0, math.sqrt(2), (1 + math.sqrt(5)) / 2, 2 * math.sin(0.4 * math.pi)]
+    if points < len(exact):
+        return exact[points]
+    a, b = math.pi / (2 * math.sqrt(3)), math.pi / 2
+    return max(2.0, (math.sqrt(b * b + 4 * a * (points - 1)) - b) / (2 * a))
+
+
+def _dot(counts: Sequence[int], numbers: Sequence[float]) -> float:
+    return sum(count * number for count, number in zip(counts, numbers, strict=True))
