@@ -92,7 +92,6 @@ def parameter_values(task: Task) -> dict[str, CellValue]:
 
 def _parameters(pen: Pen, plan: Layout, task: Task) -> None:
     pen.row(layout.PARAMETER_ROW, 0, layout.PARAMETER_HEADER, Style.HEADER)
-    user = plan.block_genes(layout.USER_BLOCK)
     for field, value in zip(layout.PARAMETERS, parameter_values(task).values(), strict=True):
         cell = plan.parameter(field.name)
         pen.write(cell.row, 0, field.label, Style.LABEL)
@@ -101,7 +100,7 @@ def _parameters(pen: Pen, plan: Layout, task: Task) -> None:
         if field.name in layout.GOAL_NAMES:
             number = layout.GOAL_NAMES.index(field.name)
             typed = task.parameters.goals[number] is not None
-            formula = None if typed else user.cell(3, number).local
+            formula = None if typed else plan.user_term(number).local
             style = Style.GOAL
         pen.write(cell.row, cell.column, value, style, formula)
     guide_parameters(pen, plan)

@@ -286,6 +286,10 @@ class Layout:
         title = self.block(block)
         return Area(GA, title.row + 2, title.column + 1, *self.genes)
 
+    def user_term(self, number: int) -> Area:
+        """Value of a term, cost first, of the user-defined chromosome: its goal by default."""
+        return self.block_genes(USER_BLOCK).cell(3, number)
+
     def card(self, number: int) -> Card:
         """Return the card of a child, 0-based; the one after the last child is the What-if."""
         first = Card(self.card_row, BLOCK_COLUMN, self.gene_slots)

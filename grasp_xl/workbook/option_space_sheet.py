@@ -113,7 +113,8 @@ def _polygon(pen: Pen, space: OptionSpace, *, live: bool) -> None:
 def _scaled(row: int, axis: int) -> str:
     centre = layout.PART.fields[1 + axis].name
     corner = xl_rowcol_to_cell(row, layout.APPROXIMATION_COLUMN + 1 + axis)
-    return f"{centre}+{layout.SCALE_FACTOR.name}*({corner}-{centre})"
+    scale = layout.SCALE_FACTOR.name
+    return f'IF(COUNT({centre},{scale},{corner})=3,{centre}+{scale}*({corner}-{centre}),"-")'
 
 
 def _approximation(pen: Pen, space: OptionSpace) -> None:
