@@ -607,6 +607,20 @@ def test_difference_is_0_until_something_is_typed(edit, opened):
     assert what_if == "edited"
 
 
+# --- what a printer makes of it ---
+
+
+@pytest.mark.parametrize("paper_mm", [(297.0, 210.0), (279.4, 215.9)], ids=["A4", "Letter"])
+def test_no_page_is_cut(paper_mm, bracket, office):
+    """Each print area takes one page, in either paper; only the list of 104 magnets takes three."""
+    office.open(bracket)
+    with zipfile.ZipFile(bracket) as parts:
+        book = parts.read("xl/workbook.xml").decode()
+    areas = re.findall(r"_xlnm.Print_Area[^>]*>([^<]*)<", book)
+    assert len(areas) == len(layout.SHEETS)
+    assert office.pages(*paper_mm) == sum(area.count("!") for area in areas) + 2
+
+
 # --- formulas that every program has ---
 
 

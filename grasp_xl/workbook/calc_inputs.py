@@ -97,8 +97,8 @@ class Watched:
     rule: Rule | None = None
 
 
-def write_inputs(pen: Pen, space: OptionSpace, inputs: dict[str, CellValue], plan: Layout) -> None:
-    """Write the table of inputs and its verdicts.
+def write_inputs(pen: Pen, space: OptionSpace, inputs: dict[str, CellValue], plan: Layout) -> int:
+    """Write the table of inputs and its verdicts, and return the number of inputs.
 
     Parameters
     ----------
@@ -133,6 +133,7 @@ def write_inputs(pen: Pen, space: OptionSpace, inputs: dict[str, CellValue], pla
         pen.write(row, INPUT_COLUMN, label, Style.LABEL)
         pen.write(row, cell.column, value, Style.TEXT if value == "" else Style.MARK, formula)
         pen.name_area(name, cell)
+    return len(watched)
 
 
 def _write_row(pen: Pen, row: int, each: Watched) -> None:

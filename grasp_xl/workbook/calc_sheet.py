@@ -153,12 +153,14 @@ def write_calc(
     """
     pen.write(0, 0, "CALC: helper cells of the live cards", Style.TITLE)
     _edges(pen, space)
-    write_inputs(pen, space, inputs, plan)
+    watched = write_inputs(pen, space, inputs, plan)
     ratio = float(inputs["DensityRatio"] or 0.0)
     for title, block, grasp in blocks:
         pen.put(block_cells(title, block, space, grasp, ratio))
     _widths(pen, blocks[0][1])
     pen.sheet.freeze_panes(FIRST_ROW, 0)
+    edges = Area(CALC, 0, 0, FIRST_ROW + len(space.ideal_polygon_mm) + 1, INPUT_COLUMN - 1)
+    pen.print_pages(edges, Area(CALC, 1, INPUT_COLUMN, FIRST_ROW + watched + 5, COLUMNS))
 
 
 def _widths(pen: Pen, block: CalcBlock) -> None:

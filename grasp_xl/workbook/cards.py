@@ -136,6 +136,10 @@ class LiveCard:
         for column in range(last + 1):
             yield self._cell(row, column, None if column else label, Style.HEADING)
 
+    def _wide_label(self, row: int, label: str) -> Cell:
+        """Write a label up to the value in column 5."""
+        return replace(self._cell(row, 0, label, Style.LABEL), columns=5)
+
     # --- the card, in its order ---
 
     def _moment_table(self, number: int) -> Iterator[Cell]:
@@ -216,12 +220,12 @@ class LiveCard:
             yield self._cell(here, 6, "(mm)", Style.UNIT)
         x, y, z = (self._ref(row + 1 + axis, 5) for axis in range(3))
         arm = self._when_valid(f'SQRT({x}^2+{y}^2+IF(TRIM(MomentArm)="plan",0,{z}^2))')
-        yield self._cell(row + 4, 0, "Center of force offset", Style.LABEL)
+        yield self._wide_label(row + 4, "Center of force offset")
         yield self._cell(row + 4, 5, grasp.eccentricity_mm, Style.RESULT, arm)
         yield self._cell(row + 4, 6, "(mm)", Style.UNIT)
         weight = self._ref(self.card.summary_row + 2, 1)
         moment = self._when_valid(f"{self._ref(row + 4, 5)}*{weight}")
-        yield self._cell(row + 5, 0, "Unbalanced moment from weight", Style.LABEL)
+        yield self._wide_label(row + 5, "Unbalanced moment from weight")
         yield self._cell(row + 5, 5, grasp.terms.moment, Style.RESULT, moment)
         yield self._cell(row + 5, 6, "(N-mm)", Style.UNIT)
 

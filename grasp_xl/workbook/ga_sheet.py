@@ -13,8 +13,8 @@ from grasp_xl.workbook.calc_sheet import CalcBlock
 from grasp_xl.workbook.cards import GENE_STYLES, LiveCard, chromosome_cells, fitness_cells
 from grasp_xl.workbook.designs_sheet import picked_genes
 from grasp_xl.workbook.guidance import guide_blocks, guide_card, guide_parameters
-from grasp_xl.workbook.layout import Card, Layout
-from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.layout import GA, Area, Card, Layout
+from grasp_xl.workbook.pen import LEAST_SCALE, PAGE_WIDTH, CellValue, Pen
 from grasp_xl.workbook.styles import Style
 
 USER_CALC = 0
@@ -57,18 +57,25 @@ def write_ga(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) -
 
 
 def _look(pen: Pen, plan: Layout) -> None:
+    """Set widths and pages: parameters and blocks, then two cards a page, or one if wide."""
     pen.sheet.freeze_panes(1, 0)
-    pen.sheet.set_column(0, 0, 34)
-    pen.sheet.set_column(1, 1, 12)
-    pen.sheet.set_column(2, 2, 2)
-    for number in range(plan.children + 1):
-        card = plan.card(number)
-        pen.sheet.set_column(card.column, card.column, 21)
-        pen.sheet.set_column(card.column + 1, card.column + card.columns - 1, 10)
-        pen.sheet.set_column(card.column + card.columns, card.column + card.columns, 2)
-    last = plan.what_if
-    pen.sheet.print_area(0, 0, last.row + last.summary_row + 23, last.column + last.columns)
-    pen.sheet.fit_to_pages(1, 1)
+    pen.widths(0, 32, 12, 2)
+    cards = [plan.card(number) for number in range(plan.children + 1)]
+    for card in cards:
+        pen.widths(card.column, 19, *[9] * (card.columns - 1), 2)
+    areas = [card.area for card in cards]
+    width, _ = pen.sheet.pixels(areas[0])
+    abreast = max(1, min(2, int(PAGE_WIDTH * 100 / LEAST_SCALE / width)))
+    rows = [areas[first : first + abreast] for first in range(0, len(areas), abreast)]
+    blocks = Area(GA, 0, 0, plan.card_row - 1, areas[1].column + areas[1].columns)
+    pen.print_pages(pictures=[blocks, *(_spanned(row) for row in rows)])
+
+
+def _spanned(areas: list[Area]) -> Area:
+    """Return the area from the first of some side by side to the last."""
+    first, last = areas[0], areas[-1]
+    columns = last.column + last.columns - first.column
+    return Area(first.sheet, first.row, first.column, first.rows, columns)
 
 
 def parameter_values(task: Task) -> dict[str, CellValue]:

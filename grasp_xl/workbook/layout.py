@@ -324,6 +324,11 @@ class Card:
         return 2 + self.gene_slots
 
     @property
+    def area(self) -> Area:
+        """The whole card, with the notes under it."""
+        return self.at(0, 0, self.summary_row + 23, self.columns)
+
+    @property
     def genes(self) -> Area:
         """The gene rows."""
         return self.at(2, 1, len(KINDS), 1 + self.gene_slots)

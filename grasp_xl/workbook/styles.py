@@ -27,8 +27,11 @@ SEQUENCE = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#
 """Colours of series, told apart by the colour-blind (Okabe and Ito)."""
 
 _LINE = {"border": 1, "border_color": "#BFBFBF"}
-_COMPUTED = {**_LINE, "bg_color": "#F3F5F7"}
-_INPUT = {**_LINE, "bg_color": "#FFF8D6", "font_color": "#1F3FBF"}
+_BAND = {"top": 1, "bottom": 1, "top_color": "#BFBFBF", "bottom_color": "#BFBFBF"}
+"""A heading's line over several cells: no upright lines through its text."""
+_COMPUTED = {**_LINE, "bg_color": "#F3F5F7", "shrink": True}
+_INPUT = {**_LINE, "bg_color": "#FFF8D6", "font_color": "#1F3FBF", "shrink": True}
+"""A number too long for its cell is written smaller, not as ###."""
 
 
 class Style(Enum):
@@ -41,10 +44,10 @@ class Style(Enum):
         return properties
 
     TITLE = "title", {"bold": True, "font_size": 12}
-    HEADING = "heading", {"bold": True, "bg_color": "#DCE6F1", **_LINE}
+    HEADING = "heading", {"bold": True, "bg_color": "#DCE6F1", **_BAND}
     CARD_TITLE = (
         "card_title",
-        {"bold": True, "bg_color": "#24456B", "font_color": "#FFFFFF", **_LINE},
+        {"bold": True, "bg_color": "#24456B", "font_color": "#FFFFFF", **_BAND},
     )
     HEADER = "header", {"bold": True, "align": "center", "bg_color": "#EDEDED", **_LINE}
     STACKED_HEADER = (
@@ -78,6 +81,10 @@ class Style(Enum):
     RESULT = "result", {**_COMPUTED, "bold": True, "num_format": "#,##0.000"}
     DIVERGENCE = "divergence", {**_COMPUTED, "bold": True, "num_format": "0.000"}
     TEXT = "text", {**_COMPUTED}
+    LOGGED = (
+        "logged",
+        {**_COMPUTED, "shrink": False, "align": "left", "valign": "vcenter", "text_wrap": True},
+    )
     ABOVE = "above", {"bg_color": "#FFE08A", "font_color": "#7A4B00", "bold": True}
     FAILS = "fails", {"bg_color": "#F8C9C4", "font_color": "#9C0006", "bold": True}
     PASSES = "passes", {"bg_color": "#C9EBD2", "font_color": "#00612E"}
