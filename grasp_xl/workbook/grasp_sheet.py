@@ -48,7 +48,7 @@ PLACE_COLOURS = (CYAN, MAGENTA)
 ELEMENT_COLOURS = (DARK_CYAN, DARK_MAGENTA)
 CORNERS = 36
 """Corners of a circle."""
-PLOT_WIDTH, PLOT_HEIGHT = 612, 408
+PLOT_WIDTH, PLOT_HEIGHT = 600, 400
 """Inner plot area of a picture (pixels); both axes get the same millimetres a pixel."""
 FRAME = 80
 """Pixels around the plot area for axes, title and legend."""
@@ -57,7 +57,8 @@ X_UNITS, Y_UNITS = 12, 8
 ROUND_STEPS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 MARGIN = 0.04
 """Free part of the extent on each side."""
-PICTURE_COLUMNS, COLUMN_WIDTH = 13, 7.8
+PICTURE_COLUMNS = 12
+"""Of the default width: LibreOffice makes others wider, and stretches the picture with them."""
 PICTURE_ROWS = 33
 FIRST_POINT = 3
 NO_POINT = "#N/A"
@@ -100,7 +101,6 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
         _to_scale(chart, space, picture.title)
         pen.insert_chart(2, number * PICTURE_COLUMNS, chart)
     pen.fix_row_heights()
-    pen.widths(0, *[COLUMN_WIDTH] * len(pictures) * PICTURE_COLUMNS)
     page = Area(GRASP, 0, 0, PICTURE_ROWS, len(pictures) * PICTURE_COLUMNS)
     pen.print_pages(pictures=[page])
 
