@@ -494,7 +494,7 @@ BAD_INPUTS: dict[str, tuple[Place, tuple[float | str | None, ...], str]] = {
     "arm": ("MomentArm", ("abc", 3), "GA, Moment Arm|3d or plan"),
     "criterion": (
         "FitnessCriterion",
-        ("abc", "cost+", "cost moment", "cost+divergence", "co+costst", 7, "cos t"),
+        ("abc", "cost+", "cost moment", "cost+divergence", "cost+cost", "co+costst", 7, "cos t"),
         "GA, Fitness Criterion|divergence, one criterion, or some joined by +",
     ),
     "corner": (CORNER, ("abc", None), "The polygon|numbers, and no corner twice in a row"),

@@ -40,10 +40,10 @@ def _number(words: str, test: str) -> Rule:
 
 
 def _criterion_test() -> str:
-    """Test for a text that is nothing but known terms, each behind a +."""
+    """Test for a text that is nothing but known terms, each once and behind a +."""
     words = 'SUBSTITUTE(SUBSTITUTE("+"&TRIM(LOWER({x}))," +","+"),"+ ","+")'
     for term in TERMS:
-        words = f'SUBSTITUTE({words},"+{term}"," ")'
+        words = f'SUBSTITUTE({words},"+{term}"," ",1)'
     return f'TRIM({words})=""'
 
 

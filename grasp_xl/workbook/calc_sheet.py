@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import permutations
 
 import numpy as np
 
@@ -327,42 +328,65 @@ def _row_least(block: CalcBlock, row: int) -> str:
     return f'IF(COUNT({cells})=0,"",MIN({cells}))'
 
 
-def _pair(block: CalcBlock, i: int, j: int) -> dict[str, str]:
-    """Words for the formulas of a pair of elements."""
-    words = {
-        f"{axis}{end}": block.element(axis, row).local
-        for axis in ("x", "y")
-        for end, row in (("i", i), ("j", j))
+@dataclass(frozen=True, slots=True)
+class _Pair:
+    """References of two elements, i and j, for formulas over the pair and all elements."""
+
+    xi: str
+    yi: str
+    xj: str
+    yj: str
+    all_x: str
+    all_y: str
+
+    @property
+    def dx(self) -> str:
+        return f"({self.xj}-{self.xi})"
+
+    @property
+    def dy(self) -> str:
+        return f"({self.yj}-{self.yi})"
+
+    @property
+    def cross(self) -> str:
+        """Cross product of the line from i to j with that to each element."""
+        return f"({self.dx}*({self.all_y}-{self.yi})-{self.dy}*({self.all_x}-{self.xi}))"
+
+    @property
+    def along(self) -> str:
+        """Dot product of the same."""
+        return f"({self.dx}*({self.all_x}-{self.xi})+{self.dy}*({self.all_y}-{self.yi}))"
+
+
+def _pairs(block: CalcBlock) -> dict[tuple[int, int], _Pair]:
+    """Return all pairs of different elements, in both directions, row by row."""
+    columns = [block.column(axis) for axis in ("x", "y")]
+    places = [tuple(column.cell(row, 0).local for column in columns) for row in range(block.size)]
+    everything = [column.absolute for column in columns]
+    return {
+        (i, j): _Pair(*places[i], *places[j], *everything)
+        for i, j in permutations(range(block.size), 2)
     }
-    words |= {name: block.column(name).absolute for name in ("active", "distinct", "x", "y")}
-    words["longest"] = block.summary("longest").absolute
-    words["dx"] = f"({words['xj']}-{words['xi']})"
-    words["dy"] = f"({words['yj']}-{words['yi']})"
-    words["cross"] = (
-        f"({words['dx']}*({words['y']}-{words['yi']})-{words['dy']}*({words['x']}-{words['xi']}))"
-    )
-    return words
 
 
 def _distance_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
-    table = block.table(0)
-    for i in range(block.size):
-        for j in range(i + 1, block.size):
-            w = _pair(block, i, j)
-            both = f"{block.element('active', i).local}*{block.element('active', j).local}"
-            formula = f'IF({both}=1,SQRT({w["dx"]}^2+{w["dy"]}^2),"")'
+    table, active = block.table(0), block.column("active")
+    for (i, j), pair in _pairs(block).items():
+        if i < j:
+            both = f"{active.cell(i, 0).local}*{active.cell(j, 0).local}"
+            formula = f'IF({both}=1,SQRT({pair.dx}^2+{pair.dy}^2),"")'
             yield _at(table.cell(i, j), values.distance[i][j], Style.COORDINATE, formula)
 
 
 def _structure_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
     table, distances = block.table(1), block.table(0)
-    for i in range(block.size):
-        for j in range(i + 1, block.size):
-            w = _pair(block, i, j)
+    active, longest = block.column("active").absolute, block.summary("longest").absolute
+    for (i, j), pair in _pairs(block).items():
+        if i < j:
             length = distances.cell(i, j).local
-            branches = f"SUMPRODUCT({w['active']}*ABS({w['cross']}))/{length}"
+            branches = f"SUMPRODUCT({active}*ABS({pair.cross}))/{length}"
             formula = (
-                f'IF({length}="","",IF({length}<{w["longest"]}*(1-{SLACK}),"",'
+                f'IF({length}="","",IF({length}<{longest}*(1-{SLACK}),"",'
                 f"IF({length}=0,0,DensityRatio*{length}+{branches})))"
             )
             yield _at(table.cell(i, j), values.structure[i][j], Style.COORDINATE, formula)
@@ -373,26 +397,22 @@ def _hull_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
 
     A pair is an edge when no element lies right of it, nor on its line beyond its ends.
     """
-    table = block.table(2)
-    for i in range(block.size):
-        for j in range(block.size):
-            if i == j:
-                continue
-            w = _pair(block, i, j)
-            slack = f"{SLACK}*{w['longest']}^2"
-            along = f"({w['dx']}*({w['x']}-{w['xi']})+{w['dy']}*({w['y']}-{w['yi']}))"
-            beyond = f"(({along}<-{slack})+({along}>{w['dx']}^2+{w['dy']}^2+{slack}))"
-            outside = (
-                f"SUMPRODUCT({w['distinct']}*(({w['cross']}<-{slack})"
-                f"+(ABS({w['cross']})<={slack})*{beyond}))"
-            )
-            both = f"{block.element('distinct', i).local}*{block.element('distinct', j).local}"
-            area = (
-                f"({w['xi']}-CentroidX)*({w['yj']}-CentroidY)"
-                f"-({w['xj']}-CentroidX)*({w['yi']}-CentroidY)"
-            )
-            formula = f'IF({both}=1,IF({outside}=0,{area},""),"")'
-            yield _at(table.cell(i, j), values.hull[i][j], Style.COORDINATE, formula)
+    table, distinct = block.table(2), block.column("distinct")
+    slack = f"{SLACK}*{block.summary('longest').absolute}^2"
+    for (i, j), pair in _pairs(block).items():
+        length = f"{pair.dx}^2+{pair.dy}^2"
+        beyond = f"(({pair.along}<-{slack})+({pair.along}>{length}+{slack}))"
+        outside = (
+            f"SUMPRODUCT({distinct.absolute}*(({pair.cross}<-{slack})"
+            f"+(ABS({pair.cross})<={slack})*{beyond}))"
+        )
+        both = f"{distinct.cell(i, 0).local}*{distinct.cell(j, 0).local}"
+        area = (
+            f"({pair.xi}-CentroidX)*({pair.yj}-CentroidY)"
+            f"-({pair.xj}-CentroidX)*({pair.yi}-CentroidY)"
+        )
+        formula = f'IF({both}=1,IF({outside}=0,{area},""),"")'
+        yield _at(table.cell(i, j), values.hull[i][j], Style.COORDINATE, formula)
 
 
 def _summary_cells(block: CalcBlock, space: OptionSpace, values: CalcValues) -> Iterator[Cell]:
