@@ -34,6 +34,7 @@ from grasp_xl.workbook.pen import Cell, CellValue
 from grasp_xl.workbook.styles import Style
 
 GENE_STYLES = (Style.SUCTION_GENE, Style.MAGNETS_GENE)
+TYPED_GENE_STYLES = (Style.TYPED_SUCTION_GENE, Style.TYPED_MAGNETS_GENE)
 MOMENT_HEADER = ("i", "xi", "yi", "zi", "Fi.xi", "Fi.yi", "Fi.zi")
 MOMENT_UNITS = (None, "(mm)", "(mm)", "(mm)", "(N-mm)", "(N-mm)", "(N-mm)")
 AXES = ("x", "y", "z")
@@ -57,8 +58,13 @@ def chromosome_cells(
     chromosome: Chromosome | None,
     slots: int,
     formulas: Sequence[Sequence[str]] | None = None,
+    *,
+    typed: bool = False,
 ) -> Iterator[Cell]:
-    """Yield a chromosome block without its title: header row and two gene rows."""
+    """Yield a chromosome block without its title: header row and two gene rows.
+
+    ``typed`` says whether a designer may type genes there.
+    """
     yield Cell(first.row, first.column, None, Style.HEADER)
     for column, label in enumerate(("Total #", *(f"Index {k}" for k in range(1, slots + 1))), 1):
         yield Cell(first.row, first.column + column, label, Style.HEADER)
@@ -68,7 +74,8 @@ def chromosome_cells(
         genes = chromosome.rows()[number] if chromosome else [None] * (1 + slots)
         for column, gene in enumerate(genes, 1):
             formula = formulas[number][column - 1] if formulas and gene is not None else None
-            yield Cell(row, first.column + column, gene, GENE_STYLES[number], formula)
+            style = (TYPED_GENE_STYLES if typed else GENE_STYLES)[number]
+            yield Cell(row, first.column + column, gene, style, formula)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +91,8 @@ class LiveCard:
         The engine's numbers, stored with the formulas.
     gene_formulas : sequence of sequence of str, optional
         Formulas of the gene cells, where they are not plain numbers.
+    typed : bool
+        Whether a designer may type genes there.
     """
 
     card: Card
@@ -93,6 +102,7 @@ class LiveCard:
     rules: Rules
     grasp: Grasp
     gene_formulas: Sequence[Sequence[str]] | None = None
+    typed: bool = False
 
     def cells(self) -> Iterator[Cell]:
         """Yield all cells, top to bottom."""
@@ -100,7 +110,9 @@ class LiveCard:
         for column in range(self.card.columns):
             yield self._cell(0, column, None if column else self.title, Style.CARD_TITLE)
         genes = self.card.at(1, 0)
-        yield from chromosome_cells(genes, self.grasp.chromosome, slots, self.gene_formulas)
+        yield from chromosome_cells(
+            genes, self.grasp.chromosome, slots, self.gene_formulas, typed=self.typed
+        )
         for number in range(len(KINDS)):
             yield from self._moment_table(number)
         yield from self._force_cells()

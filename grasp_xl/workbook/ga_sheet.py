@@ -130,7 +130,8 @@ def _blocks(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) ->
         for column in range(plan.what_if.columns):
             text = None if column else f"{block.label}{addition}"
             pen.write(title.row, title.column + column, text, Style.HEADING)
-        pen.put(chromosome_cells(title.cell(1, 0), chromosome, plan.gene_slots))
+        typed = block is layout.USER_BLOCK
+        pen.put(chromosome_cells(title.cell(1, 0), chromosome, plan.gene_slots, typed=typed))
         pen.name_area(block.name, plan.block_genes(block))
     matrix = plan.block_genes(layout.MATRIX_BLOCK)
     for row, marks in enumerate(result.matrix.tolist()):
@@ -157,6 +158,7 @@ def _cards(plan: Layout, task: Task, result: Result, shown: Shown) -> dict[str, 
         title = f"Child {number + 1}{elite}"
         cards[f"Child{number + 1}"] = live(number, plan.card(number), title, grasp)
     what_if = live(len(cards), plan.what_if, layout.WHAT_IF.label, shown.what_if)
+    what_if = replace(what_if, typed=True)
     if not shown.typed_what_if:
         what_if = replace(what_if, gene_formulas=picked_genes(plan.gene_slots))
     cards[layout.WHAT_IF.name] = what_if

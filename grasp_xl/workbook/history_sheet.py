@@ -33,6 +33,9 @@ MAX_HISTORY = 100_000
 MAX_STEPS = 1_000
 """Changes that the charts draw: evenly chosen on their logarithmic axis."""
 
+DRAWN_DIGITS = 6
+"""Decimals of what charts draw: else an axis might show only the rounding of equal values."""
+
 CHART_WIDTH, CHART_HEIGHT = 560, 295
 CHART_COLUMNS, CHART_ROWS = 18, 16
 """Columns that two charts take side by side, and rows that one takes."""
@@ -94,14 +97,14 @@ def _steps(pen: Pen, history: pd.DataFrame, left: int) -> Area:
     for row, point in enumerate(points, HISTORY_ROW + 1):
         for number, value in enumerate(point.tolist()):
             if value == value:  # noqa: PLR0124 (no cell where the grasp has no fitness)
-                pen.write(row, left + number, value, Style.RATIO)
+                pen.write(row, left + number, round(value, DRAWN_DIGITS), Style.RATIO)
     return Area(HISTORY, HISTORY_ROW + 1, left, max(1, len(points)), len(header))
 
 
 def _benchmark(pen: Pen, result: Result, left: int) -> Area:
     """Write the benchmark's values at both ends of the generation axis."""
     grasp = result.benchmark
-    values = (grasp.fos, *grasp.terms, grasp.divergence)
+    values = [round(v, DRAWN_DIGITS) for v in (grasp.fos, *grasp.terms, grasp.divergence)]
     header = ("Benchmark", *(title for _, title, _, _ in CRITERIA))
     pen.row(HISTORY_ROW, left, header, Style.HEADER)
     for offset, generation in enumerate((1, max(10, result.state.generation)), 1):
