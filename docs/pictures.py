@@ -15,11 +15,8 @@ DOCS = Path(__file__).parent
 RESULT = DOCS.parent / "workbooks" / "bracket-result.xlsx"
 DPI = 400
 
-PARAMETER_WIDTH, CARD_WIDTH, CARDS = 34 + 12 + 2, 21 + 6 * 10 + 2, 6
-"""Widths on the sheet GA, in characters: the parameters, and each card with its gap."""
-
-ROWS, FIRST_CARD_ROW = 63, 20
-"""Rows of the sheet GA, and the first of the cards."""
+CARD_WIDTH, GAP = 19 + 6 * 9, 2
+"""Widths on the sheet GA, in characters: a card, and what is between the two on a page."""
 
 
 def rendered(folder: Path, title: str) -> Image.Image:
@@ -45,11 +42,9 @@ def trimmed(picture: Image.Image) -> Image.Image:
 def main() -> None:
     """Write both pictures beside this file."""
     with tempfile.TemporaryDirectory() as folder:
-        ga = rendered(Path(folder), "GENETIC ALGORITHM")
-        unit = ga.width / (PARAMETER_WIDTH + CARDS * CARD_WIDTH - 2)
-        left, right = PARAMETER_WIDTH * unit, (PARAMETER_WIDTH + CARD_WIDTH - 2) * unit
-        top = ga.height * (FIRST_CARD_ROW - 0.5) / ROWS
-        card = trimmed(ga.crop((int(left) - 5, int(top), int(right) + 2, ga.height)))
+        cards = rendered(Path(folder), "Child 1 (Elite)")
+        right = cards.width * (CARD_WIDTH + GAP / 2) / (2 * CARD_WIDTH + GAP)
+        card = trimmed(cards.crop((0, 0, int(right), cards.height)))
         card.save(DOCS / "card.png", optimize=True)
         grasp = rendered(Path(folder), "GRASP: ")
         grasp.thumbnail((1800, 1800))

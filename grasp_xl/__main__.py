@@ -1,8 +1,6 @@
 """``python -m grasp_xl``: the same as the command ``grasp-xl``."""
 
-import sys
-
-from grasp_xl.cli import main
+from grasp_xl.cli import entry
 
 if __name__ == "__main__":
-    sys.exit(main())
+    entry()

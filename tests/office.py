@@ -105,6 +105,11 @@ class Office:
         """Put back what was typed over since the workbook was opened."""
         self._do("undo")
 
+    def pages(self, width_mm: float, height_mm: float) -> int:
+        """Return how many pages a print of all sheets has on a paper."""
+        pages: int = self._do("pages", width=width_mm, height=height_mm)
+        return pages
+
     def save(self, path: Path) -> Path:
         """Save the workbook as .xlsx."""
         self._do("save", path=str(path))

@@ -170,6 +170,12 @@ class Session:
         """Save the workbook as .xlsx."""
         self._book.storeToURL(url(path), properties(FilterName=XLSX))
 
+    def pages(self, width, height):
+        """Return how many pages a print of all sheets has on a paper (mm)."""
+        for style in self._book.StyleFamilies.getByName("PageStyles"):
+            style.Width, style.Height = round(100 * width), round(100 * height)
+        return self._book.getRendererCount(self._book, ())
+
     def close(self):
         """Close the workbook without saving it."""
         if self._book is not None:

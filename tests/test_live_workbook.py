@@ -58,12 +58,14 @@ GA_CELLS = Area(GA, 0, 0, PLAN.card_row + CARD_ROWS, PLAN.what_if.column + CARD_
 STATUS, DIFFERENCE = (35, 0), (42, 5)
 NOT_AVAILABLE = "#N/A"
 BAD_COUNT = "A total is out of range: type a whole number from Min. to Max. of its kind."
-BAD_INDEX = "An active index is not in the option space: type a whole number from 1 to its total."
-BAD_INPUT = "An input cannot be used: look at the part, the elements, the scale and the parameters."
-NO_GOAL = "A goal is empty or no number: look at the goals and the user-defined chromosome."
+BAD_INDEX = (
+    "An active index has no place: type a whole number from 1 to its total; x, y, z are numbers."
+)
+NO_GOAL = "A goal is no number above 0: look at the goals and the user-defined chromosome."
 
 FUNCTIONS = {
     *("ABS", "AND", "COLUMN", "COUNT", "IF", "INDEX", "INT", "ISBLANK", "ISNUMBER", "LEFT", "MAX"),
+    *("LOWER", "MATCH", "SUBSTITUTE"),
     *(
         "MIN",
         "N",
@@ -72,6 +74,7 @@ FUNCTIONS = {
         "OR",
         "ROUND",
         "ROW",
+        "ROWS",
         "SEARCH",
         "SQRT",
         "SUM",
@@ -435,8 +438,7 @@ def without(card: Card, rows: list[list[CellValue]]) -> list[list[CellValue]]:
 def test_a_wrong_gene_leaves_no_error_on_any_sheet(opened):
     """Behind the card and in the picture nothing breaks either; only missing points are #N/A."""
     opened.enter({PLAN.what_if.genes.cell(0, 1): 9999, PLAN.what_if.genes.cell(1, 0): "abc"})
-    wrong = {(cell.sheet, v) for cell, v in opened.formulas().items() if errors([[v]])}
-    assert wrong == {(GRASP, NOT_AVAILABLE)}
+    assert errors_of(opened) == {(GRASP, NOT_AVAILABLE)}
 
 
 @pytest.mark.parametrize("value", [0, 9999, "abc", None])
@@ -450,13 +452,120 @@ def test_a_wrong_user_defined_gene_leaves_no_goals(value, opened):
     assert errors(opened.read(GA_CELLS)) == []
 
 
-@pytest.mark.parametrize("name", ["PartMass", "SuctionPrice", "MinClearance", "DensityRatio"])
-@pytest.mark.parametrize("value", ["abc", None])
-def test_an_input_that_is_no_number_gives_a_plain_message(name, value, opened):
-    """Every card says so, and no error value is shown."""
+BAD_INPUTS: dict[str, tuple[Place, tuple[float | str | None, ...], str]] = {
+    "mass": ("PartMass", ("abc", None, 0), "Part data, Part mass (g)|a number above 0"),
+    "centroid": ("CentroidZ", ("abc", None), "Part data, Centroid Z (mm)|a number"),
+    "force": (
+        "SuctionForce",
+        ("abc", -1),
+        "Suction cup data, Normal force capacity (N)|a number above 0",
+    ),
+    "price": (
+        "MagnetPrice",
+        ("abc", None, -1),
+        "Magnet data, Unit price ($)|a number of 0 or more",
+    ),
+    "weight": (
+        "MagnetWeight",
+        ("abc", -1),
+        "Magnet data, Weight (g)|a number of 0 or more, or blank",
+    ),
+    "count": (
+        "SuctionMax",
+        ("abc", 2.5),
+        "Suction cup data, # Suction Cups (Max.)|a whole number of 0 or more",
+    ),
+    "scale": (
+        "ScaleFactor",
+        ("abc", 0, 1.5),
+        "Option Space, Scale Factor|a number above 0, at most 1",
+    ),
+    "clearance": (
+        "MinClearance",
+        ("abc", None, 0),
+        "GA, Minimum Gripper Element Distance (mm)|a number above 0",
+    ),
+    "ratio": (
+        "DensityRatio",
+        ("abc", None, -1),
+        "GA, Structure Linear Density Ratio|a number of 0 or more",
+    ),
+    "FoS": ("FoSGoal", ("abc", None, 0, -3), "GA, FoS|a number above 0"),
+    "arm": ("MomentArm", ("abc", 3), "GA, Moment Arm|3d or plan"),
+    "criterion": (
+        "FitnessCriterion",
+        ("abc", "cost+", "cost moment", "cost+divergence", "cost+cost", "co+costst", 7, "cos t"),
+        "GA, Fitness Criterion|divergence, one criterion, or some joined by +",
+    ),
+    "corner": (CORNER, ("abc", None), "The polygon|numbers, and no corner twice in a row"),
+}
+
+
+@pytest.mark.parametrize("wrong", BAD_INPUTS)
+def test_an_input_that_cannot_be_used_is_named(wrong, opened):
+    """Every card names it and what to type, and no sheet shows an error value."""
+    place, values, told = BAD_INPUTS[wrong]
+    label, words = told.split("|")
+    message = f"{label} cannot be used: type {words}."
+    for value in values:
+        opened.enter({place: value})
+        shown = opened.values([card.at(*STATUS) for card in CARDS.values()])
+        assert shown == [message] * len(CARDS)
+        assert {sheet for sheet, _ in errors_of(opened)} <= {GRASP}
+
+
+def test_a_corner_twice_in_a_row_is_named(opened):
+    """A polygon edge without length divides nothing by 0."""
+    corners = opened.read("ApproximationPolygon")
+    twice = dict(zip((CORNER.cell(0, axis) for axis in range(3)), corners[1], strict=True))
+    opened.enter(twice)
+    message = opened.value(PLAN.what_if.at(*STATUS))
+    assert message == "The polygon cannot be used: type numbers, and no corner twice in a row."
+    assert {sheet for sheet, _ in errors_of(opened)} <= {GRASP}
+
+
+@pytest.mark.parametrize("name", GOAL_NAMES)
+@pytest.mark.parametrize("value", [0, -5, "abc", None])
+def test_a_goal_that_is_no_number_above_0_is_told(name, value, opened):
+    """Every card says so and shows no divergence; what needs no goal is still there."""
+    before = opened.value(PLAN.what_if.at(21, 2))
     opened.enter({name: value})
-    assert opened.values([card.at(*STATUS) for card in CARDS.values()]) == [BAD_INPUT] * len(CARDS)
+    assert opened.values([card.at(*STATUS) for card in CARDS.values()]) == [NO_GOAL] * len(CARDS)
+    assert opened.values([card.at(33, 5) for card in CARDS.values()]) == ["-"] * len(CARDS)
+    assert opened.value(PLAN.what_if.at(21, 2)) == before
     assert errors(opened.read(GA_CELLS)) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["cost+moment", " Moment +  COST", "STRUCTURE", "Divergence ", "deviation + cost+moment"],
+)
+def test_a_criterion_may_be_typed_in_any_way_that_the_reader_takes(text, opened, tmp_path):
+    """Order, case and spaces do not matter: the card's value is that of the saved file's engine."""
+    opened.enter({"FitnessCriterion": text})
+    task = task_of(opened.save(tmp_path / "criterion.xlsx"))
+    grasp = evaluate(task.space, task.rules, genes_of(opened.read("WhatIf")))
+    assert missed(opened.read(GA_CELLS), PLAN.what_if, card_values(task, grasp)) == []
+
+
+@pytest.mark.parametrize("value", ["abc", None])
+def test_a_place_without_three_numbers_is_told_where_it_is_used(value, opened):
+    """The card with that index says so without an error value; the others compute."""
+    opened.enter({**TYPED_GENES, FOOTPRINT: value})
+    assert opened.value(PLAN.what_if.at(*STATUS)) == BAD_INDEX
+    assert str(opened.value(PLAN.card(0).at(*STATUS))).startswith("Meets")
+    assert {sheet for sheet, _ in errors_of(opened)} <= {GRASP}
+
+
+def errors_of(office: Office) -> set[tuple[str, CellValue]]:
+    """Return sheet and text of every error value of the workbook."""
+    return {(cell.sheet, v) for cell, v in office.formulas().items() if errors([[v]])}
+
+
+def test_a_count_beyond_the_columns_is_told(opened):
+    """With a larger Max. typed, a total above the card's index columns is still refused."""
+    opened.enter({"SuctionMax": 9, PLAN.what_if.genes.cell(0, 0): 6})
+    assert opened.value(PLAN.what_if.at(*STATUS)) == BAD_COUNT
 
 
 def test_an_inactive_wrong_index_does_no_harm(opened):
@@ -496,6 +605,20 @@ def test_difference_is_0_until_something_is_typed(edit, opened):
     *children, what_if = opened.values(shown)
     assert children == [0 if edit == "genes" else "edited"] * PLAN.children
     assert what_if == "edited"
+
+
+# --- what a printer makes of it ---
+
+
+@pytest.mark.parametrize("paper_mm", [(297.0, 210.0), (279.4, 215.9)], ids=["A4", "Letter"])
+def test_no_page_is_cut(paper_mm, bracket, office):
+    """Each print area takes one page, in either paper; only the list of 104 magnets takes three."""
+    office.open(bracket)
+    with zipfile.ZipFile(bracket) as parts:
+        book = parts.read("xl/workbook.xml").decode()
+    areas = re.findall(r"_xlnm.Print_Area[^>]*>([^<]*)<", book)
+    assert len(areas) == len(layout.SHEETS)
+    assert office.pages(*paper_mm) == sum(area.count("!") for area in areas) + 2
 
 
 # --- formulas that every program has ---

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import permutations
 
 import numpy as np
 
@@ -17,20 +18,24 @@ from grasp_xl.chromosome import BLANK_GENE
 from grasp_xl.grasp import Grasp
 from grasp_xl.space import OptionSpace
 from grasp_xl.workbook import layout
+from grasp_xl.workbook.calc_inputs import (
+    COLUMNS,
+    FIRST_ROW,
+    INPUT_COLUMN,
+    INPUTS_USABLE,
+    SLACK,
+    write_inputs,
+)
 from grasp_xl.workbook.calc_values import CalcValues
-from grasp_xl.workbook.layout import CALC, KINDS, Area, KindLabels
+from grasp_xl.workbook.layout import CALC, KINDS, Area, Layout
 from grasp_xl.workbook.pen import Cell, CellValue, Pen
 from grasp_xl.workbook.styles import Style
 
-FIRST_ROW = 3
 EDGE_COLUMN = 0
 EDGE_NAMES = ("EdgeStartX", "EdgeStartY", "EdgeX", "EdgeY", "EdgeSquared")
 EDGE_HEADER = ("i", "start x", "start y", "edge x", "edge y", "squared length")
 PART_POLYGON_COLUMN = 6
-INPUT_COLUMN = 9
-INPUTS_EDITED = "InputsEdited"
-INPUTS_USABLE = "InputsUsable"
-BLOCK_COLUMN = 13
+BLOCK_COLUMN = INPUT_COLUMN + COLUMNS + 1
 ELEMENT_HEADER = (
     "element",
     "in space",
@@ -56,47 +61,10 @@ SUMMARY_HEADER = (
 )
 MEASURED = ("longest", "shortest", "hull area")
 TABLES = ("distance (mm)", "structure if this is the main truss (mm)", "edge of the hull (mm²)")
-SLACK = "1E-9"
 SAME_PLACE = "1E-9"
 """Coordinates nearer than this are the same place (mm)."""
 FAR = "1E9"
 """Beyond every row and column."""
-
-LISTED_INPUTS = (
-    "PartMass",
-    "CentroidX",
-    "CentroidY",
-    "CentroidZ",
-    *(labels.field(s) for labels in KINDS for s in ("Min", "Max", "Force", "Price", "Weight")),
-    "ScaleFactor",
-    "MinClearance",
-    "DensityRatio",
-    "FitnessCriterion",
-    "FoSGoal",
-    *layout.GOAL_NAMES,
-    "MomentArm",
-)
-"""Inputs whose change tells a card that the engine's numbers are for another state."""
-
-NUMERIC_INPUTS = (
-    *(field.name for field in layout.PART.fields),
-    *(labels.field(s) for labels in KINDS for s in ("Min", "Max", "Force", "Price")),
-    "ScaleFactor",
-    "MinClearance",
-    "DensityRatio",
-    "FoSGoal",
-)
-"""Inputs without which no card has a meaning."""
-
-POSITIVE_INPUTS = (
-    "PartMass",
-    *(labels.field("Force") for labels in KINDS),
-    "ScaleFactor",
-    "MinClearance",
-    "FoSGoal",
-)
-INPUTS_FROM_ZERO = (*(labels.field("Price") for labels in KINDS), "DensityRatio")
-"""Bounds that the reader demands as well."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,6 +138,7 @@ def write_calc(
     space: OptionSpace,
     inputs: dict[str, CellValue],
     blocks: list[tuple[str, CalcBlock, Grasp]],
+    plan: Layout,
 ) -> None:
     """Write the sheet.
 
@@ -178,24 +147,29 @@ def write_calc(
     pen : Pen
     space : OptionSpace
     inputs : dict
-        Values of ``LISTED_INPUTS`` as written.
+        Values of the inputs as written, by defined name.
     blocks : list of tuple
         Title, block, and what the engine says of its grasp.
+    plan : Layout
     """
     pen.write(0, 0, "CALC: helper cells of the live cards", Style.TITLE)
     _edges(pen, space)
-    _inputs(pen, space, inputs)
+    watched = write_inputs(pen, space, inputs, plan)
     ratio = float(inputs["DensityRatio"] or 0.0)
     for title, block, grasp in blocks:
         pen.put(block_cells(title, block, space, grasp, ratio))
     _widths(pen, blocks[0][1])
     pen.sheet.freeze_panes(FIRST_ROW, 0)
+    edges = Area(CALC, 0, 0, FIRST_ROW + len(space.ideal_polygon_mm) + 1, INPUT_COLUMN - 1)
+    pen.print_pages(edges, Area(CALC, 1, INPUT_COLUMN, FIRST_ROW + watched + 5, COLUMNS))
 
 
 def _widths(pen: Pen, block: CalcBlock) -> None:
     first, behind = block.table(0).column - 1, block.table(len(TABLES)).column - 1
     pen.sheet.set_column(0, BLOCK_COLUMN - 1, 12)
     pen.sheet.set_column(INPUT_COLUMN, INPUT_COLUMN, 19)
+    pen.sheet.set_column(INPUT_COLUMN + 3, INPUT_COLUMN + 3, 44)
+    pen.sheet.set_column(INPUT_COLUMN + 5, INPUT_COLUMN + 5, 44)
     pen.sheet.set_column(BLOCK_COLUMN, BLOCK_COLUMN, 22)
     pen.sheet.set_column(BLOCK_COLUMN + 1, first - 1, 14)
     pen.sheet.set_column(first, behind, 11)
@@ -219,7 +193,7 @@ def _edges(pen: Pen, space: OptionSpace) -> None:
                 (EDGE_COLUMN + 1, layout.IDEAL_POLYGON, ideal),
                 (PART_POLYGON_COLUMN, layout.APPROXIMATION_POLYGON, part),
             ):
-                formula = f"INDEX({name},{corner + 1},{axis + 1})"
+                formula = f"N(INDEX({name},{corner + 1},{axis + 1}))"
                 value = float(points[corner, axis])
                 pen.write(row, left + axis, value, Style.COORDINATE, formula)
         if number == corners:
@@ -241,49 +215,6 @@ def closed_polygon(column: int, corners: int) -> Area:
     return Area(CALC, FIRST_ROW, column, corners + 1)
 
 
-def _inputs(pen: Pen, space: OptionSpace, inputs: dict[str, CellValue]) -> None:
-    pen.write(1, INPUT_COLUMN, "Inputs changed", Style.HEADING)
-    pen.row(2, INPUT_COLUMN, ("input", "as written", "changed"), Style.HEADER)
-    watched = [(name, name, inputs[name]) for name in LISTED_INPUTS]
-    watched += _watched_places(space)
-    for row, (name, now, value) in enumerate(watched, FIRST_ROW):
-        pen.write(row, INPUT_COLUMN, name, Style.LABEL)
-        pen.write(row, INPUT_COLUMN + 1, value, Style.TEXT)
-        written = Area(CALC, row, INPUT_COLUMN + 1).local
-        differs = (
-            f"IF(ISNUMBER({now}),IF(ISNUMBER({written}),"
-            f"IF(ABS({now}-{written})>{SLACK}*ABS({written}),1,0),1),"
-            f'IF({now}&""={written}&"",0,1))'
-        )
-        pen.write(row, INPUT_COLUMN + 2, 0, Style.MARK, differs)
-    flags = Area(CALC, FIRST_ROW, INPUT_COLUMN + 2, len(watched))
-    pen.write(1, INPUT_COLUMN + 2, 0, Style.MARK, f"SUM({flags.absolute})")
-    pen.name_area(INPUTS_EDITED, Area(CALC, 1, INPUT_COLUMN + 2))
-    row = FIRST_ROW + len(watched) + 1
-    pen.write(row, INPUT_COLUMN, "all are usable", Style.LABEL)
-    numbers = f"COUNT({','.join(NUMERIC_INPUTS)})"
-    bounds = [f"{name}>0" for name in POSITIVE_INPUTS]
-    bounds += [f"{name}>=0" for name in INPUTS_FROM_ZERO]
-    bounds += ["ScaleFactor<=1", 'OR(MomentArm="3d",MomentArm="plan")']
-    usable = f"IF({numbers}={len(NUMERIC_INPUTS)},IF(AND({','.join(bounds)}),1,0),0)"
-    pen.write(row, INPUT_COLUMN + 2, 1, Style.MARK, usable)
-    pen.name_area(INPUTS_USABLE, Area(CALC, row, INPUT_COLUMN + 2))
-
-
-def _watched_places(space: OptionSpace) -> list[tuple[str, str, CellValue]]:
-    """Return name, formula and value of a number that changes when a coordinate does."""
-    places = [(layout.APPROXIMATION_POLYGON, space.approximation_polygon_mm)]
-    places += [
-        (labels.locations_name, kind.footprints_mm)
-        for labels, kind in zip(KINDS, space.kinds, strict=True)
-        if kind.total
-    ]
-    return [
-        (name, f"(SUMSQ({name})+SUM({name}))", float((points**2).sum() + points.sum()))
-        for name, points in places
-    ]
-
-
 def block_cells(
     title: str, block: CalcBlock, space: OptionSpace, grasp: Grasp, density_ratio: float
 ) -> Iterator[Cell]:
@@ -301,7 +232,7 @@ def block_cells(
     yield from _distance_cells(block, values)
     yield from _structure_cells(block, values)
     yield from _hull_cells(block, values)
-    yield from _summary_cells(block, values)
+    yield from _summary_cells(block, space, values)
     yield from _engine_cells(block, grasp)
 
 
@@ -336,17 +267,17 @@ def _element_cells(
         yield _at(block.element("least structure", row), "", Style.COORDINATE, None)
         return
     gene, count = block.gene(number, slot + 1), block.gene(number, 0)
-    total = labels.field("Total")
-    in_range = f"IF(AND({gene}>=1,{gene}<={total},{gene}=INT({gene})),1,0)"
+    in_range = f"AND({gene}>=1,{gene}<={_listed(space, number)},{gene}=INT({gene}))"
+    placed = f"IF(COUNT(INDEX({labels.locations_name},{gene},0))=3,1,0)"
     formulas = {
-        "in space": f"IF(ISNUMBER({gene}),{in_range},0)",
-        "active": f"IF(ISNUMBER({count}),IF({slot + 1}<={count},1,0),0)",
+        "in space": f"IF(ISNUMBER({gene}),IF({in_range},{placed},0),0)",
+        "active": f"IF(ISNUMBER({count}),IF({slot + 1}<={count},{INPUTS_USABLE},0),0)",
         **{
             axis: f"IF({block.element('in space', row).local}=1,"
             f"INDEX({labels.locations_name},{gene},{position}),0)"
             for position, axis in enumerate(("x", "y", "z"), 1)
         },
-        "force (N)": f"{block.element('active', row).local}*{labels.field('Force')}",
+        "force (N)": f"IF({block.element('active', row).local}=1,{labels.field('Force')},0)",
         "to polygon": _polygon_distance(block, row),
         "distinct": _distinct(block, row),
         "least structure": _row_least(block, row),
@@ -354,6 +285,14 @@ def _element_cells(
     for title, formula in formulas.items():
         style = Style.MARK if title in ("in space", "active", "distinct") else Style.COORDINATE
         yield _at(block.element(title, row), values.element(title, row), style, formula)
+
+
+def _listed(space: OptionSpace, number: int) -> str:
+    """Return how many places of a kind there are to choose from."""
+    labels = KINDS[number]
+    if not space.kinds[number].total:
+        return "0"
+    return f"MIN({labels.field('Total')},ROWS({labels.locations_name}))"
 
 
 def _polygon_distance(block: CalcBlock, row: int) -> str:
@@ -389,42 +328,65 @@ def _row_least(block: CalcBlock, row: int) -> str:
     return f'IF(COUNT({cells})=0,"",MIN({cells}))'
 
 
-def _pair(block: CalcBlock, i: int, j: int) -> dict[str, str]:
-    """Words for the formulas of a pair of elements."""
-    words = {
-        f"{axis}{end}": block.element(axis, row).local
-        for axis in ("x", "y")
-        for end, row in (("i", i), ("j", j))
+@dataclass(frozen=True, slots=True)
+class _Pair:
+    """References of two elements, i and j, for formulas over the pair and all elements."""
+
+    xi: str
+    yi: str
+    xj: str
+    yj: str
+    all_x: str
+    all_y: str
+
+    @property
+    def dx(self) -> str:
+        return f"({self.xj}-{self.xi})"
+
+    @property
+    def dy(self) -> str:
+        return f"({self.yj}-{self.yi})"
+
+    @property
+    def cross(self) -> str:
+        """Cross product of the line from i to j with that to each element."""
+        return f"({self.dx}*({self.all_y}-{self.yi})-{self.dy}*({self.all_x}-{self.xi}))"
+
+    @property
+    def along(self) -> str:
+        """Dot product of the same."""
+        return f"({self.dx}*({self.all_x}-{self.xi})+{self.dy}*({self.all_y}-{self.yi}))"
+
+
+def _pairs(block: CalcBlock) -> dict[tuple[int, int], _Pair]:
+    """Return all pairs of different elements, in both directions, row by row."""
+    columns = [block.column(axis) for axis in ("x", "y")]
+    places = [tuple(column.cell(row, 0).local for column in columns) for row in range(block.size)]
+    everything = [column.absolute for column in columns]
+    return {
+        (i, j): _Pair(*places[i], *places[j], *everything)
+        for i, j in permutations(range(block.size), 2)
     }
-    words |= {name: block.column(name).absolute for name in ("active", "distinct", "x", "y")}
-    words["longest"] = block.summary("longest").absolute
-    words["dx"] = f"({words['xj']}-{words['xi']})"
-    words["dy"] = f"({words['yj']}-{words['yi']})"
-    words["cross"] = (
-        f"({words['dx']}*({words['y']}-{words['yi']})-{words['dy']}*({words['x']}-{words['xi']}))"
-    )
-    return words
 
 
 def _distance_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
-    table = block.table(0)
-    for i in range(block.size):
-        for j in range(i + 1, block.size):
-            w = _pair(block, i, j)
-            both = f"{block.element('active', i).local}*{block.element('active', j).local}"
-            formula = f'IF({both}=1,SQRT({w["dx"]}^2+{w["dy"]}^2),"")'
+    table, active = block.table(0), block.column("active")
+    for (i, j), pair in _pairs(block).items():
+        if i < j:
+            both = f"{active.cell(i, 0).local}*{active.cell(j, 0).local}"
+            formula = f'IF({both}=1,SQRT({pair.dx}^2+{pair.dy}^2),"")'
             yield _at(table.cell(i, j), values.distance[i][j], Style.COORDINATE, formula)
 
 
 def _structure_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
     table, distances = block.table(1), block.table(0)
-    for i in range(block.size):
-        for j in range(i + 1, block.size):
-            w = _pair(block, i, j)
+    active, longest = block.column("active").absolute, block.summary("longest").absolute
+    for (i, j), pair in _pairs(block).items():
+        if i < j:
             length = distances.cell(i, j).local
-            branches = f"SUMPRODUCT({w['active']}*ABS({w['cross']}))/{length}"
+            branches = f"SUMPRODUCT({active}*ABS({pair.cross}))/{length}"
             formula = (
-                f'IF({length}="","",IF({length}<{w["longest"]}*(1-{SLACK}),"",'
+                f'IF({length}="","",IF({length}<{longest}*(1-{SLACK}),"",'
                 f"IF({length}=0,0,DensityRatio*{length}+{branches})))"
             )
             yield _at(table.cell(i, j), values.structure[i][j], Style.COORDINATE, formula)
@@ -435,29 +397,25 @@ def _hull_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
 
     A pair is an edge when no element lies right of it, nor on its line beyond its ends.
     """
-    table = block.table(2)
-    for i in range(block.size):
-        for j in range(block.size):
-            if i == j:
-                continue
-            w = _pair(block, i, j)
-            slack = f"{SLACK}*{w['longest']}^2"
-            along = f"({w['dx']}*({w['x']}-{w['xi']})+{w['dy']}*({w['y']}-{w['yi']}))"
-            beyond = f"(({along}<-{slack})+({along}>{w['dx']}^2+{w['dy']}^2+{slack}))"
-            outside = (
-                f"SUMPRODUCT({w['distinct']}*(({w['cross']}<-{slack})"
-                f"+(ABS({w['cross']})<={slack})*{beyond}))"
-            )
-            both = f"{block.element('distinct', i).local}*{block.element('distinct', j).local}"
-            area = (
-                f"({w['xi']}-CentroidX)*({w['yj']}-CentroidY)"
-                f"-({w['xj']}-CentroidX)*({w['yi']}-CentroidY)"
-            )
-            formula = f'IF({both}=1,IF({outside}=0,{area},""),"")'
-            yield _at(table.cell(i, j), values.hull[i][j], Style.COORDINATE, formula)
+    table, distinct = block.table(2), block.column("distinct")
+    slack = f"{SLACK}*{block.summary('longest').absolute}^2"
+    for (i, j), pair in _pairs(block).items():
+        length = f"{pair.dx}^2+{pair.dy}^2"
+        beyond = f"(({pair.along}<-{slack})+({pair.along}>{length}+{slack}))"
+        outside = (
+            f"SUMPRODUCT({distinct.absolute}*(({pair.cross}<-{slack})"
+            f"+(ABS({pair.cross})<={slack})*{beyond}))"
+        )
+        both = f"{distinct.cell(i, 0).local}*{distinct.cell(j, 0).local}"
+        area = (
+            f"({pair.xi}-CentroidX)*({pair.yj}-CentroidY)"
+            f"-({pair.xj}-CentroidX)*({pair.yi}-CentroidY)"
+        )
+        formula = f'IF({both}=1,IF({outside}=0,{area},""),"")'
+        yield _at(table.cell(i, j), values.hull[i][j], Style.COORDINATE, formula)
 
 
-def _summary_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
+def _summary_cells(block: CalcBlock, space: OptionSpace, values: CalcValues) -> Iterator[Cell]:
     active, in_space = block.column("active").absolute, block.column("in space").absolute
     distances, structures, hull = (block.table(number).absolute for number in range(3))
     least = block.column("least structure").absolute
@@ -467,7 +425,7 @@ def _summary_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
     nearly_least = f"MIN({least})+{SLACK}*{longest}"
     twice_area = f"SUM({hull})"
     formulas = {
-        "counts in range": _counts_in_range(block),
+        "counts in range": _counts_in_range(block, space),
         "all in space": f"IF(SUMPRODUCT({active}*(1-{in_space}))=0,1,0)",
         "elements": f"SUM({active})",
         "longest": f"IF(COUNT({distances})=0,0,MAX({distances}))",
@@ -490,19 +448,16 @@ def _first_below(axis: str, cells: str, bound: str) -> str:
     return f"SUMPRODUCT(MIN({place}+{FAR}*(1-ISNUMBER({cells})*({cells}<={bound}))))"
 
 
-def _counts_in_range(block: CalcBlock) -> str:
+def _counts_in_range(block: CalcBlock, space: OptionSpace) -> str:
     tests = []
     for number, labels in enumerate(KINDS):
         count = block.gene(number, 0)
-        tests.append(f"IF(ISNUMBER({count}),{_count_test(labels, count)},0)")
+        most = f"MIN({labels.field('Max')},{_listed(space, number)},{block.slots})"
+        in_range = f"AND({count}>={labels.field('Min')},{count}<={most},{count}=INT({count}))"
+        tests.append(f"IF(ISNUMBER({count}),IF({in_range},1,0),0)")
     total = "+".join(block.gene(number, 0) for number in range(len(KINDS)))
     both = "*".join(tests)
     return f"IF({both}=1,IF({total}>0,1,0),0)"
-
-
-def _count_test(labels: KindLabels, count: str) -> str:
-    least, most = labels.field("Min"), f"MIN({labels.field('Max')},{labels.field('Total')})"
-    return f"IF(AND({count}>={least},{count}<={most},{count}=INT({count})),1,0)"
 
 
 def _engine_cells(block: CalcBlock, grasp: Grasp) -> Iterator[Cell]:

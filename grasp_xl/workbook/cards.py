@@ -14,7 +14,14 @@ from grasp_xl.grasp import Grasp
 from grasp_xl.rules import TERMS, Rules
 from grasp_xl.space import OptionSpace
 from grasp_xl.stability import support
-from grasp_xl.workbook.calc_sheet import INPUTS_EDITED, INPUTS_USABLE, SLACK, CalcBlock
+from grasp_xl.workbook.calc_inputs import (
+    GOALS_USABLE,
+    INPUTS_EDITED,
+    INPUTS_FAULT,
+    INPUTS_USABLE,
+    SLACK,
+)
+from grasp_xl.workbook.calc_sheet import CalcBlock
 from grasp_xl.workbook.layout import (
     DIVERGENCE_LABEL,
     FITNESS_HEADER,
@@ -27,15 +34,17 @@ from grasp_xl.workbook.pen import Cell, CellValue
 from grasp_xl.workbook.styles import Style
 
 GENE_STYLES = (Style.SUCTION_GENE, Style.MAGNETS_GENE)
+TYPED_GENE_STYLES = (Style.TYPED_SUCTION_GENE, Style.TYPED_MAGNETS_GENE)
 MOMENT_HEADER = ("i", "xi", "yi", "zi", "Fi.xi", "Fi.yi", "Fi.zi")
 MOMENT_UNITS = (None, "(mm)", "(mm)", "(mm)", "(N-mm)", "(N-mm)", "(N-mm)")
 AXES = ("x", "y", "z")
 GOALS = ("FoSGoal", *GOAL_NAMES)
 DASH = "-"
-BAD_INPUT = "An input cannot be used: look at the part, the elements, the scale and the parameters."
 BAD_COUNT = "A total is out of range: type a whole number from Min. to Max. of its kind."
-BAD_INDEX = "An active index is not in the option space: type a whole number from 1 to its total."
-NO_GOAL = "A goal is empty or no number: look at the goals and the user-defined chromosome."
+BAD_INDEX = (
+    "An active index has no place: type a whole number from 1 to its total; x, y, z are numbers."
+)
+NO_GOAL = "A goal is no number above 0: look at the goals and the user-defined chromosome."
 WEAK = "FoS is below its goal. "
 CLOSE = "Two elements are closer than the minimum distance. "
 MEETS_ALL = "Meets FoS, distance and every goal."
@@ -49,8 +58,13 @@ def chromosome_cells(
     chromosome: Chromosome | None,
     slots: int,
     formulas: Sequence[Sequence[str]] | None = None,
+    *,
+    typed: bool = False,
 ) -> Iterator[Cell]:
-    """Yield a chromosome block without its title: header row and two gene rows."""
+    """Yield a chromosome block without its title: header row and two gene rows.
+
+    ``typed`` says whether a designer may type genes there.
+    """
     yield Cell(first.row, first.column, None, Style.HEADER)
     for column, label in enumerate(("Total #", *(f"Index {k}" for k in range(1, slots + 1))), 1):
         yield Cell(first.row, first.column + column, label, Style.HEADER)
@@ -60,7 +74,8 @@ def chromosome_cells(
         genes = chromosome.rows()[number] if chromosome else [None] * (1 + slots)
         for column, gene in enumerate(genes, 1):
             formula = formulas[number][column - 1] if formulas and gene is not None else None
-            yield Cell(row, first.column + column, gene, GENE_STYLES[number], formula)
+            style = (TYPED_GENE_STYLES if typed else GENE_STYLES)[number]
+            yield Cell(row, first.column + column, gene, style, formula)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +91,8 @@ class LiveCard:
         The engine's numbers, stored with the formulas.
     gene_formulas : sequence of sequence of str, optional
         Formulas of the gene cells, where they are not plain numbers.
+    typed : bool
+        Whether a designer may type genes there.
     """
 
     card: Card
@@ -85,6 +102,7 @@ class LiveCard:
     rules: Rules
     grasp: Grasp
     gene_formulas: Sequence[Sequence[str]] | None = None
+    typed: bool = False
 
     def cells(self) -> Iterator[Cell]:
         """Yield all cells, top to bottom."""
@@ -92,7 +110,9 @@ class LiveCard:
         for column in range(self.card.columns):
             yield self._cell(0, column, None if column else self.title, Style.CARD_TITLE)
         genes = self.card.at(1, 0)
-        yield from chromosome_cells(genes, self.grasp.chromosome, slots, self.gene_formulas)
+        yield from chromosome_cells(
+            genes, self.grasp.chromosome, slots, self.gene_formulas, typed=self.typed
+        )
         for number in range(len(KINDS)):
             yield from self._moment_table(number)
         yield from self._force_cells()
@@ -128,6 +148,10 @@ class LiveCard:
         for column in range(last + 1):
             yield self._cell(row, column, None if column else label, Style.HEADING)
 
+    def _wide_label(self, row: int, label: str) -> Cell:
+        """Write a label up to the value in column 5."""
+        return replace(self._cell(row, 0, label, Style.LABEL), columns=5)
+
     # --- the card, in its order ---
 
     def _moment_table(self, number: int) -> Iterator[Cell]:
@@ -152,7 +176,7 @@ class LiveCard:
                 formula = f'IF({known}=1,{found},"{DASH}")'
                 yield self._cell(here, 1 + axis, place, Style.COORDINATE, formula)
                 force = f"{labels.field('Force')}*{self._ref(here, 1 + axis)}"
-                formula = f'IF({known}=1,{force},"{DASH}")'
+                formula = f'IF({INPUTS_USABLE}*{known}=1,{force},"{DASH}")'
                 yield self._cell(here, 4 + axis, kind.force_n * place, Style.TORQUE, formula)
         for column, unit in enumerate(MOMENT_UNITS):
             yield self._cell(row + 2 + self.card.gene_slots, column, unit, Style.UNIT)
@@ -207,13 +231,13 @@ class LiveCard:
             yield self._cell(here, 5, offset, Style.COORDINATE, self._when_valid(apart))
             yield self._cell(here, 6, "(mm)", Style.UNIT)
         x, y, z = (self._ref(row + 1 + axis, 5) for axis in range(3))
-        arm = self._when_valid(f'SQRT({x}^2+{y}^2+IF(MomentArm="plan",0,{z}^2))')
-        yield self._cell(row + 4, 0, "Center of force offset", Style.LABEL)
+        arm = self._when_valid(f'SQRT({x}^2+{y}^2+IF(TRIM(MomentArm)="plan",0,{z}^2))')
+        yield self._wide_label(row + 4, "Center of force offset")
         yield self._cell(row + 4, 5, grasp.eccentricity_mm, Style.RESULT, arm)
         yield self._cell(row + 4, 6, "(mm)", Style.UNIT)
         weight = self._ref(self.card.summary_row + 2, 1)
         moment = self._when_valid(f"{self._ref(row + 4, 5)}*{weight}")
-        yield self._cell(row + 5, 0, "Unbalanced moment from weight", Style.LABEL)
+        yield self._wide_label(row + 5, "Unbalanced moment from weight")
         yield self._cell(row + 5, 5, grasp.terms.moment, Style.RESULT, moment)
         yield self._cell(row + 5, 6, "(N-mm)", Style.UNIT)
 
@@ -243,16 +267,11 @@ class LiveCard:
             typed = f'IF(ISBLANK({GOALS[column]}),"{DASH}",{GOALS[column]})'
             yield self._cell(row + 3, column, goals[column], Style.RESULT, typed)
         four = self.card.at(row + 2, 1, 1, len(TERMS)).absolute
-        total = self._when_valid(f'IF({self._goals_known},SUM({four}),"{DASH}")')
+        total = self._when_valid(f'IF({GOALS_USABLE}=1,SUM({four}),"{DASH}")')
         yield self._cell(row + 2, 5, grasp.divergence, Style.DIVERGENCE, total)
         yield self._cell(row + 3, 5, "<-- Fitness Goals", Style.NOTE)
         status = status_text(grasp)
         yield self._cell(row + 4, 0, status, Style.STATUS, self._status_formula())
-
-    @property
-    def _goals_known(self) -> str:
-        goals = self.card.at(self.card.summary_row + 14, 0, 1, len(GOALS)).absolute
-        return f"COUNT({goals})={len(GOALS)}"
 
     def _status_formula(self) -> str:
         row = self.card.summary_row
@@ -262,13 +281,13 @@ class LiveCard:
         close = f'IF({shortest}="","",IF({shortest}<MinClearance*(1-{SLACK}),"{CLOSE}",""))'
         ratios = self.card.at(row + 13, 1, 1, len(TERMS)).absolute
         meets = f'IF(MAX({ratios})<=1+{SLACK},"{MEETS_ALL}","{MEETS_SOME}")'
-        meets = f'IF({self._goals_known},{meets},"{NO_GOAL}")'
         failures = f"TRIM({weak}&{close})"
         return (
-            f'IF({INPUTS_USABLE}=0,"{BAD_INPUT}",'
+            f"IF({INPUTS_USABLE}=0,{INPUTS_FAULT},"
             f'IF({self._sum("counts in range")}=0,"{BAD_COUNT}",'
             f'IF({self._sum("all in space")}=0,"{BAD_INDEX}",'
-            f'IF({failures}="",{meets},{failures}))))'
+            f'IF({GOALS_USABLE}=0,"{NO_GOAL}",'
+            f'IF({failures}="",{meets},{failures})))))'
         )
 
     def _note_cells(self) -> Iterator[Cell]:
@@ -340,7 +359,7 @@ class LiveCard:
             f"IF({test},N({self._ref(row, 1 + number)}),0)" for number, test in enumerate(named)
         )
         divergence = self._ref(row, 5)
-        summed = f'IF({self._goals_known},{summed},"{DASH}")'
+        summed = f'IF({GOALS_USABLE}=1,{summed},"{DASH}")'
         return f"IF({count}=0,{divergence},IF({count}=1,{alone},{summed}))"
 
     def _difference_formula(self) -> str:
@@ -387,7 +406,7 @@ def _block_formulas(first: Area, block: CalcBlock) -> list[str]:
         f"(Centroid{axis.upper()}-SUMPRODUCT({force}*{block.column(axis).reference})/SUM({force}))"
         for axis in AXES
     ]
-    arm = f'SQRT({apart[0]}^2+{apart[1]}^2+IF(MomentArm="plan",0,{apart[2]}^2))'
+    arm = f'SQRT({apart[0]}^2+{apart[1]}^2+IF(TRIM(MomentArm)="plan",0,{apart[2]}^2))'
     elements = block.summary("elements").reference
     divergence = "+".join(
         f"IF(N({goal})<{SLACK},0,{first.cell(1, number).local}/{goal})"
@@ -399,7 +418,7 @@ def _block_formulas(first: Area, block: CalcBlock) -> list[str]:
         f"{arm}*{weight}",
         f"SUM({block.column('to polygon').reference})/{elements}",
         f"IF({elements}<2,0,MIN({block.column('least structure').reference}))",
-        f'IF(COUNT({",".join(GOAL_NAMES)})={len(GOAL_NAMES)},{divergence},"{DASH}")',
+        f'IF({GOALS_USABLE}=1,{divergence},"{DASH}")',
     ]
     in_range, in_space = (
         block.summary(name).reference for name in ("counts in range", "all in space")

@@ -18,6 +18,10 @@ from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import SEQUENCE, Style
 from grasp_xl.workbook.table import (
     CRITERIA,
+    CRITERIA_WIDTHS,
+    GENE_WIDTH,
+    GENERATION_WIDTH,
+    GRID,
     add_table,
     gene_labels,
     gene_styles,
@@ -37,6 +41,8 @@ PICK_HINT = (
     "Type a row number of the list: its two gene rows below can be copied as they are, and the "
     "What-if card shows it. Empty: the best grasp."
 )
+CHART_ROWS, CHART_COLUMNS = 24, 10
+"""Rows and columns that the chart takes."""
 NORMALISED = tuple(f"Norm. {label}" for label in FITNESS_HEADER)
 
 
@@ -78,8 +84,13 @@ def write_valid_designs(pen: Pen, book: Any, result: Result, unpicked: Chromosom
         },
     )
     pen.sheet.freeze_panes(TABLE_ROW + 1, 1)
-    pen.sheet.set_column(0, len(labels) - 1, 10)
-    _trade_off(pen, book, designs, len(labels) + 1)
+    norms, rest = [8.2] * len(NORMALISED), (CRITERIA_WIDTHS[-1], 8.5)
+    gene_widths = [GENE_WIDTH] * len(genes)
+    pen.widths(0, GENERATION_WIDTH, *gene_widths, *CRITERIA_WIDTHS[:-1], *norms, *rest)
+    listed = Area(VALID_DESIGNS, 0, 0, TABLE_ROW + 1 + rows, len(labels))
+    chart = Area(VALID_DESIGNS, TABLE_ROW + 1, len(labels) + 1, CHART_ROWS, CHART_COLUMNS)
+    pen.print_pages(listed, pictures=[chart] if len(designs) else [])
+    _trade_off(pen, book, designs, chart)
 
 
 def _rows(pen: Pen, result: Result, designs: pd.DataFrame) -> None:
@@ -140,11 +151,12 @@ def _picker(pen: Pen, result: Result, rows: int, unpicked: Chromosome) -> None:
             pen.write(row, 1 + slot, gene, style, None if gene is None else formula)
 
 
-def _trade_off(pen: Pen, book: Any, designs: pd.DataFrame, left: int) -> None:  # noqa: ANN401 (untyped library)
-    """Chart structure against deviation, a series a cost, from columns beside the list."""
+def _trade_off(pen: Pen, book: Any, designs: pd.DataFrame, place: Area) -> None:  # noqa: ANN401 (untyped library)
+    """Chart structure against deviation, a series a cost, from columns beside the chart."""
     costs = sorted(designs["cost"].unique())[: len(SEQUENCE)]
     if not costs:
         return
+    left = place.column + place.columns + 1
     chart = book.add_chart({"type": "scatter"})
     pen.row(TABLE_ROW, left, ("Deviation (mm)", *(f"${cost:g}" for cost in costs)), Style.HEADER)
     records = zip(designs["deviation"], designs["structure"], designs["cost"], strict=True)
@@ -169,9 +181,9 @@ def _trade_off(pen: Pen, book: Any, designs: pd.DataFrame, left: int) -> None:  
             }
         )
     chart.set_title({"name": "Trade-off of the valid designs", "name_font": {"size": 11}})
-    chart.set_x_axis({"name": "Deviation (mm)", "major_gridlines": {"visible": True}})
-    chart.set_y_axis({"name": "Structure (mm)"})
+    chart.set_x_axis({"name": "Deviation (mm)", "major_gridlines": GRID, "label_position": "low"})
+    chart.set_y_axis({"name": "Structure (mm)", "major_gridlines": GRID})
     chart.set_legend({"position": "bottom"})
     chart.set_size({"width": 640, "height": 420})
-    pen.insert_chart(PICK_ROW, left + 2 + len(costs), chart)
+    pen.insert_chart(place.row, place.column, chart)
     pen.fix_row_heights()

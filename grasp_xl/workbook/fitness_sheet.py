@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.result import Result
+from grasp_xl.workbook.layout import FITNESS_TABLE, Area
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import Style
 from grasp_xl.workbook.table import CRITERIA, DASH
@@ -27,7 +28,8 @@ def write_fitness_table(pen: Pen, result: Result) -> None:
         pen.write(row, 0, label, Style.LABEL)
         _row(pen, row, grasp, with_fitness=grasp.feasible or label == BENCHMARK)
     pen.sheet.freeze_panes(3, 1)
-    pen.sheet.set_column(0, len(COLUMNS) - 1, 14)
+    pen.widths(0, *[14] * len(COLUMNS))
+    pen.print_pages(Area(FITNESS_TABLE, 0, 0, 3 + len(rows), len(COLUMNS)))
 
 
 def _row(pen: Pen, row: int, grasp: Grasp, *, with_fitness: bool) -> None:

@@ -13,8 +13,8 @@ from grasp_xl.workbook.calc_sheet import CalcBlock
 from grasp_xl.workbook.cards import GENE_STYLES, LiveCard, chromosome_cells, fitness_cells
 from grasp_xl.workbook.designs_sheet import picked_genes
 from grasp_xl.workbook.guidance import guide_blocks, guide_card, guide_parameters
-from grasp_xl.workbook.layout import Card, Layout
-from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.layout import GA, Area, Card, Layout
+from grasp_xl.workbook.pen import LEAST_SCALE, PAGE_WIDTH, CellValue, Pen
 from grasp_xl.workbook.styles import Style
 
 USER_CALC = 0
@@ -57,18 +57,25 @@ def write_ga(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) -
 
 
 def _look(pen: Pen, plan: Layout) -> None:
+    """Set widths and pages: parameters and blocks, then two cards a page, or one if wide."""
     pen.sheet.freeze_panes(1, 0)
-    pen.sheet.set_column(0, 0, 34)
-    pen.sheet.set_column(1, 1, 12)
-    pen.sheet.set_column(2, 2, 2)
-    for number in range(plan.children + 1):
-        card = plan.card(number)
-        pen.sheet.set_column(card.column, card.column, 21)
-        pen.sheet.set_column(card.column + 1, card.column + card.columns - 1, 10)
-        pen.sheet.set_column(card.column + card.columns, card.column + card.columns, 2)
-    last = plan.what_if
-    pen.sheet.print_area(0, 0, last.row + last.summary_row + 23, last.column + last.columns)
-    pen.sheet.fit_to_pages(1, 1)
+    pen.widths(0, 32, 12, 2)
+    cards = [plan.card(number) for number in range(plan.children + 1)]
+    for card in cards:
+        pen.widths(card.column, 19, *[9] * (card.columns - 1), 2)
+    areas = [card.area for card in cards]
+    width, _ = pen.sheet.pixels(areas[0])
+    abreast = max(1, min(2, int(PAGE_WIDTH * 100 / LEAST_SCALE / width)))
+    rows = [areas[first : first + abreast] for first in range(0, len(areas), abreast)]
+    blocks = Area(GA, 0, 0, plan.card_row - 1, areas[1].column + areas[1].columns)
+    pen.print_pages(pictures=[blocks, *(_spanned(row) for row in rows)])
+
+
+def _spanned(areas: list[Area]) -> Area:
+    """Return the area from the first of some side by side to the last."""
+    first, last = areas[0], areas[-1]
+    columns = last.column + last.columns - first.column
+    return Area(first.sheet, first.row, first.column, first.rows, columns)
 
 
 def parameter_values(task: Task) -> dict[str, CellValue]:
@@ -92,7 +99,6 @@ def parameter_values(task: Task) -> dict[str, CellValue]:
 
 def _parameters(pen: Pen, plan: Layout, task: Task) -> None:
     pen.row(layout.PARAMETER_ROW, 0, layout.PARAMETER_HEADER, Style.HEADER)
-    user = plan.block_genes(layout.USER_BLOCK)
     for field, value in zip(layout.PARAMETERS, parameter_values(task).values(), strict=True):
         cell = plan.parameter(field.name)
         pen.write(cell.row, 0, field.label, Style.LABEL)
@@ -101,7 +107,7 @@ def _parameters(pen: Pen, plan: Layout, task: Task) -> None:
         if field.name in layout.GOAL_NAMES:
             number = layout.GOAL_NAMES.index(field.name)
             typed = task.parameters.goals[number] is not None
-            formula = None if typed else user.cell(3, number).local
+            formula = None if typed else plan.user_term(number).local
             style = Style.GOAL
         pen.write(cell.row, cell.column, value, style, formula)
     guide_parameters(pen, plan)
@@ -124,7 +130,8 @@ def _blocks(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) ->
         for column in range(plan.what_if.columns):
             text = None if column else f"{block.label}{addition}"
             pen.write(title.row, title.column + column, text, Style.HEADING)
-        pen.put(chromosome_cells(title.cell(1, 0), chromosome, plan.gene_slots))
+        typed = block is layout.USER_BLOCK
+        pen.put(chromosome_cells(title.cell(1, 0), chromosome, plan.gene_slots, typed=typed))
         pen.name_area(block.name, plan.block_genes(block))
     matrix = plan.block_genes(layout.MATRIX_BLOCK)
     for row, marks in enumerate(result.matrix.tolist()):
@@ -151,6 +158,7 @@ def _cards(plan: Layout, task: Task, result: Result, shown: Shown) -> dict[str, 
         title = f"Child {number + 1}{elite}"
         cards[f"Child{number + 1}"] = live(number, plan.card(number), title, grasp)
     what_if = live(len(cards), plan.what_if, layout.WHAT_IF.label, shown.what_if)
+    what_if = replace(what_if, typed=True)
     if not shown.typed_what_if:
         what_if = replace(what_if, gene_formulas=picked_genes(plan.gene_slots))
     cards[layout.WHAT_IF.name] = what_if

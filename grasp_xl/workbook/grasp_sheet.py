@@ -48,17 +48,18 @@ PLACE_COLOURS = (CYAN, MAGENTA)
 ELEMENT_COLOURS = (DARK_CYAN, DARK_MAGENTA)
 CORNERS = 36
 """Corners of a circle."""
-PLOT_WIDTH, PLOT_HEIGHT = 720, 480
+PLOT_WIDTH, PLOT_HEIGHT = 600, 400
 """Inner plot area of a picture (pixels); both axes get the same millimetres a pixel."""
-FRAME = 80
-"""Pixels around the plot area for axes, title and legend."""
+FRAME, LEGEND = 80, 50
+"""Pixels around the plot area for axes and titles, and below them for the legend's many lines."""
 X_UNITS, Y_UNITS = 12, 8
 """Tick distances from the middle to the edges: the proportion of the plot area."""
 ROUND_STEPS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 MARGIN = 0.04
 """Free part of the extent on each side."""
-PICTURE_COLUMNS = 14
-PICTURE_ROWS = 36
+PICTURE_COLUMNS = 12
+"""Of the default width: LibreOffice makes others wider, and stretches the picture with them."""
+PICTURE_ROWS = 35
 FIRST_POINT = 3
 NO_POINT = "#N/A"
 
@@ -100,8 +101,8 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
         _to_scale(chart, space, picture.title)
         pen.insert_chart(2, number * PICTURE_COLUMNS, chart)
     pen.fix_row_heights()
-    pen.sheet.print_area(0, 0, PICTURE_ROWS, len(pictures) * PICTURE_COLUMNS)
-    pen.sheet.fit_to_pages(1, 1)
+    page = Area(GRASP, 0, 0, PICTURE_ROWS, len(pictures) * PICTURE_COLUMNS)
+    pen.print_pages(pictures=[page])
 
 
 def _series(name: str, x: Area, y: Area, look: dict[str, Any]) -> dict[str, Any]:
@@ -294,7 +295,7 @@ def _to_scale(chart: Any, space: OptionSpace, title: str) -> None:  # noqa: ANN4
                 "major_gridlines": {"visible": False},
             }
         )
-    width, height = PLOT_WIDTH + 2 * FRAME, PLOT_HEIGHT + 2 * FRAME
+    width, height = PLOT_WIDTH + 2 * FRAME, PLOT_HEIGHT + 2 * FRAME + LEGEND
     chart.set_size({"width": width, "height": height})
     chart.set_plotarea(
         {

@@ -109,7 +109,7 @@ def guide_card(pen: Pen, card: Card, space: OptionSpace) -> None:
     shortest = card.at(row + 20, 5)
     too_close = f"AND(ISNUMBER({shortest.local}),{shortest.local}<MinClearance*0.999999999)"
     _colour(pen, shortest, too_close, Style.FAILS)
-    status = card.at(row + 15, 0, 1, 6)
+    status = card.at(row + 15, 0, 1, card.columns)
     meets = f'LEFT({status.cell(0, 0).absolute},5)="Meets"'
     _colour(pen, status, f"NOT({meets})", Style.FAILS)
     _colour(pen, status, meets, Style.PASSES)

@@ -13,6 +13,10 @@ from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import BLUE, GREY, Style
 from grasp_xl.workbook.table import (
     CRITERIA,
+    CRITERIA_WIDTHS,
+    GENE_WIDTH,
+    GENERATION_WIDTH,
+    GRID,
     add_table,
     gene_labels,
     gene_styles,
@@ -29,8 +33,11 @@ MAX_HISTORY = 100_000
 MAX_STEPS = 1_000
 """Changes that the charts draw: evenly chosen on their logarithmic axis."""
 
-CHART_WIDTH, CHART_HEIGHT = 560, 330
-CHART_COLUMNS, CHART_ROWS = 20, 19
+DRAWN_DIGITS = 6
+"""Decimals of what charts draw: else an axis might show only the rounding of equal values."""
+
+CHART_WIDTH, CHART_HEIGHT = 560, 295
+CHART_COLUMNS, CHART_ROWS = 18, 16
 """Columns that two charts take side by side, and rows that one takes."""
 
 
@@ -48,19 +55,20 @@ def write_history(pen: Pen, book: Any, result: Result) -> None:  # noqa: ANN401 
             pen.write(row, number, shown, style)
     rows = max(1, len(history))
     add_table(pen, "History", Area(HISTORY, HISTORY_ROW, 0, 1 + rows, len(labels)), labels)
-    left = len(labels) + CHART_COLUMNS
+    left = len(labels) + CHART_COLUMNS + 2
     steps = _steps(pen, history, left)
     benchmark = _benchmark(pen, result, left + steps.columns + 1)
     for number, (_, title, unit, _) in enumerate(CRITERIA, 1):
         chart = _chart(book, title, unit, _column(steps, number), _column(benchmark, number))
-        row = HISTORY_ROW + CHART_ROWS * ((number - 1) // 2)
+        row = HISTORY_ROW + 1 + CHART_ROWS * ((number - 1) // 2)
         column = len(labels) + 1 + CHART_COLUMNS // 2 * ((number - 1) % 2)
         pen.insert_chart(row, column, chart)
-    last = HISTORY_ROW + max(len(history), 3 * CHART_ROWS)
     pen.fix_row_heights()
-    pen.sheet.print_area(0, 0, last, left - 1)
     pen.sheet.freeze_panes(HISTORY_ROW + 1, 1)
-    pen.sheet.set_column(0, len(labels) - 1, 10)
+    pen.widths(0, GENERATION_WIDTH, *CRITERIA_WIDTHS, *[GENE_WIDTH] * len(genes))
+    listed = Area(HISTORY, 0, 0, HISTORY_ROW + 1 + rows, len(labels))
+    charts = Area(HISTORY, HISTORY_ROW + 1, len(labels) + 1, 3 * CHART_ROWS, CHART_COLUMNS)
+    pen.print_pages(listed, pictures=[charts])
 
 
 def _listed(result: Result) -> pd.DataFrame:
@@ -89,14 +97,14 @@ def _steps(pen: Pen, history: pd.DataFrame, left: int) -> Area:
     for row, point in enumerate(points, HISTORY_ROW + 1):
         for number, value in enumerate(point.tolist()):
             if value == value:  # noqa: PLR0124 (no cell where the grasp has no fitness)
-                pen.write(row, left + number, value, Style.RATIO)
+                pen.write(row, left + number, round(value, DRAWN_DIGITS), Style.RATIO)
     return Area(HISTORY, HISTORY_ROW + 1, left, max(1, len(points)), len(header))
 
 
 def _benchmark(pen: Pen, result: Result, left: int) -> Area:
     """Write the benchmark's values at both ends of the generation axis."""
     grasp = result.benchmark
-    values = (grasp.fos, *grasp.terms, grasp.divergence)
+    values = [round(v, DRAWN_DIGITS) for v in (grasp.fos, *grasp.terms, grasp.divergence)]
     header = ("Benchmark", *(title for _, title, _, _ in CRITERIA))
     pen.row(HISTORY_ROW, left, header, Style.HEADER)
     for offset, generation in enumerate((1, max(10, result.state.generation)), 1):
@@ -128,17 +136,16 @@ def _chart(
     for name, (categories, values), line in lines:
         chart.add_series({"name": name, "categories": categories, "values": values, "line": line})
     chart.set_title({"name": f"{title} vs Generation Number", "name_font": {"size": 11}})
-    grid = {"visible": True, "line": {"color": "#D9D9D9"}}
     chart.set_x_axis(
         {
             "name": "Generation",
             "log_base": 10,
             "min": 1,
-            "major_gridlines": grid,
+            "major_gridlines": GRID,
             "label_position": "low",
         }
     )
-    chart.set_y_axis({"name": unit, "major_gridlines": grid})
+    chart.set_y_axis({"name": unit, "major_gridlines": GRID})
     chart.set_legend({"position": "bottom"})
     chart.set_size({"width": CHART_WIDTH, "height": CHART_HEIGHT})
     return chart

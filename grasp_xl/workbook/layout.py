@@ -286,6 +286,10 @@ class Layout:
         title = self.block(block)
         return Area(GA, title.row + 2, title.column + 1, *self.genes)
 
+    def user_term(self, number: int) -> Area:
+        """Value of a term, cost first, of the user-defined chromosome: its goal by default."""
+        return self.block_genes(USER_BLOCK).cell(3, number)
+
     def card(self, number: int) -> Card:
         """Return the card of a child, 0-based; the one after the last child is the What-if."""
         first = Card(self.card_row, BLOCK_COLUMN, self.gene_slots)
@@ -318,6 +322,11 @@ class Card:
     def columns(self) -> int:
         """Columns of the card: 7 in the thesis."""
         return 2 + self.gene_slots
+
+    @property
+    def area(self) -> Area:
+        """The whole card, with the notes under it."""
+        return self.at(0, 0, self.summary_row + 23, self.columns)
 
     @property
     def genes(self) -> Area:

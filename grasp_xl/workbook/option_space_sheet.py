@@ -31,12 +31,27 @@ def write_option_space(pen: Pen, space: OptionSpace, *, live: bool) -> None:
     if live:
         _approximation(pen, space)
         _details(pen, space)
+    _look(pen, space, live=live)
+
+
+def _look(pen: Pen, space: OptionSpace, *, live: bool) -> None:
+    """Set widths and pages: the lists on as many as they need, then the polygons."""
     pen.sheet.freeze_panes(layout.FIRST_LOCATION_ROW, layout.INDEX_COLUMN + 1)
-    pen.sheet.set_column(0, 0, 30)
-    pen.sheet.set_column(1, layout.POLYGON_COLUMN - 1, 11)
-    pen.sheet.set_column(layout.POLYGON_COLUMN, layout.POLYGON_COLUMN, 13)
-    pen.sheet.set_column(layout.DETAIL_COLUMN, layout.DETAIL_COLUMN, 26)
-    pen.sheet.set_column(layout.DETAIL_COLUMN + 1, layout.DETAIL_COLUMN + 1, 24)
+    pen.widths(0, 30, *[11] * (layout.POLYGON_COLUMN - 2))
+    has_overlap = any(kind.overlap is not None for kind in space.kinds)
+    pen.widths(layout.OVERLAP_COLUMN, 11 if has_overlap else 3)
+    pen.widths(layout.POLYGON_COLUMN, 13, 11, 11, 11, 3)
+    last = layout.POLYGON_COLUMN + 3
+    if live:
+        pen.widths(layout.APPROXIMATION_COLUMN, 5, 11, 11, 11, 3)
+        pen.widths(layout.DETAIL_COLUMN, 26, 24)
+        last = layout.DETAIL_COLUMN + 1
+    places = layout.FIRST_LOCATION_ROW + max(kind.total for kind in space.kinds)
+    lists = Area(OPTION_SPACE, 0, 0, max(places, 24), layout.POLYGON_COLUMN)
+    corners = layout.POLYGON_HEADER_ROW + 3 + len(space.ideal_polygon_mm)
+    columns = 1 + last - layout.POLYGON_COLUMN
+    pen.print_pages(lists, Area(OPTION_SPACE, 0, layout.POLYGON_COLUMN, max(corners, 6), columns))
+    pen.sheet.repeat_rows(0, layout.FIRST_LOCATION_ROW - 1)
 
 
 def _headers(pen: Pen) -> None:
@@ -75,7 +90,7 @@ def _locations(pen: Pen, space: OptionSpace, *, live: bool) -> None:
         pen.write(first + index - 1, layout.INDEX_COLUMN, index, Style.MARK)
     for labels, kind in zip(layout.KINDS, space.kinds, strict=True):
         for row, point in enumerate(kind.footprints_mm.tolist(), first):
-            pen.row(row, labels.column, point, Style.COORDINATE)
+            pen.row(row, labels.column, point, Style.INPUT_COORDINATE)
         if kind.overlap is not None:
             pen.write(first - 1, layout.OVERLAP_COLUMN, layout.OVERLAP_LABEL, Style.HEADER)
             for row, fraction in enumerate(kind.overlap.tolist(), first):
@@ -97,7 +112,8 @@ def _polygon(pen: Pen, space: OptionSpace, *, live: bool) -> None:
         pen.write(row, left, number + 1, Style.MARK)
         for axis, coordinate in enumerate(point):
             formula = _scaled(row, axis) if live else None
-            pen.write(row, left + 1 + axis, coordinate, Style.COORDINATE, formula)
+            style = Style.COORDINATE if live else Style.INPUT_COORDINATE
+            pen.write(row, left + 1 + axis, coordinate, style, formula)
     row = first + len(space.ideal_polygon_mm) + 1
     pen.write(row, left, layout.CENTROID_LABEL, Style.LABEL)
     for axis, field in enumerate(layout.PART.fields[1:]):
@@ -113,13 +129,14 @@ def _polygon(pen: Pen, space: OptionSpace, *, live: bool) -> None:
 def _scaled(row: int, axis: int) -> str:
     centre = layout.PART.fields[1 + axis].name
     corner = xl_rowcol_to_cell(row, layout.APPROXIMATION_COLUMN + 1 + axis)
-    return f"{centre}+{layout.SCALE_FACTOR.name}*({corner}-{centre})"
+    scale = layout.SCALE_FACTOR.name
+    return f'IF(COUNT({centre},{scale},{corner})=3,{centre}+{scale}*({corner}-{centre}),"-")'
 
 
 def _approximation(pen: Pen, space: OptionSpace) -> None:
     left = layout.APPROXIMATION_COLUMN
     polygon = space.approximation_polygon_mm.tolist()
-    pen.write(0, left, layout.APPROXIMATION_LABEL, Style.LABEL)
+    pen.span(Area(OPTION_SPACE, 0, left, 1, 4), layout.APPROXIMATION_LABEL, Style.HEADING)
     pen.row(layout.POLYGON_HEADER_ROW, left, layout.POLYGON_HEADER, Style.HEADER)
     first = layout.POLYGON_HEADER_ROW + 1
     for row, point in enumerate(polygon, first):
@@ -145,8 +162,9 @@ def _details(pen: Pen, space: OptionSpace) -> None:
         if kind.diameter_mm is None
     ]
     if assumed:
-        note = f"Where a diameter is blank, pictures assume {' and '.join(assumed)}."
-        pen.write(len(rows), layout.DETAIL_COLUMN, note, Style.NOTE)
+        notes = ("Where a diameter is blank, pictures assume", f"{' and '.join(assumed)}.")
+        for row, note in enumerate(notes, len(rows)):
+            pen.write(row, layout.DETAIL_COLUMN, note, Style.NOTE)
 
 
 def _kind_details(

@@ -19,6 +19,16 @@ A4 = 9
 ROW_HEIGHT = 14.25
 """Height of every row (points)."""
 
+MARGINS = {"left": 0.25, "right": 0.25, "top": 0.7, "bottom": 0.6}
+"""Of a printed page (inches)."""
+PAGE_WIDTH, PAGE_HEIGHT = 0.93 * 10.5 * 96, 0.97 * 6.9 * 96
+"""What both an A4 and a Letter page in landscape hold between the margins (pixels of Excel's).
+
+LibreOffice's columns are 6 percent wider: it does not round the width of a digit to whole pixels.
+"""
+LEAST_SCALE, MOST_SCALE = 60, 85
+"""Scales of printed pages (percent): text of 9 points is then 5.4 to 7.7 points high."""
+
 CellValue = str | int | float | bool | None
 
 
@@ -26,7 +36,7 @@ CellValue = str | int | float | bool | None
 class Cell:
     """What one cell of a sheet holds: a value, or a formula with the value that it gives.
 
-    ``rows`` above 1 merge it with the cells below, for a label only.
+    ``rows`` and ``columns`` above 1 merge it with the cells below and beside, for a label only.
     """
 
     row: int
@@ -35,6 +45,7 @@ class Cell:
     style: Style = Style.LABEL
     formula: str | None = None
     rows: int = 1
+    columns: int = 1
 
 
 class ExactWorksheet(Worksheet):  # type: ignore[misc]
@@ -43,6 +54,12 @@ class ExactWorksheet(Worksheet):  # type: ignore[misc]
     And one that takes formulas as they are: to look for functions newer than Excel 2016, which none
     of ours has, would take as long as all the rest of the writing.
     """
+
+    def pixels(self, area: Area) -> tuple[int, int]:
+        """Return the width and height of an area as shown at 100 percent."""
+        columns = range(area.column, area.column + area.columns)
+        rows = range(area.row, area.row + area.rows)
+        return sum(map(self._size_col, columns)), sum(map(self._size_row, rows))
 
     def _prepare_formula(self, formula: str, expand_future_functions: bool = False) -> str:  # noqa: ARG002, FBT001, FBT002 (signature of the base)
         return formula.removeprefix("=")
@@ -67,7 +84,7 @@ class Pen:
         self.sheet.set_default_row(ROW_HEIGHT)
         self.sheet.set_landscape()
         self.sheet.set_paper(A4)
-        self.sheet.fit_to_pages(1, 0)
+        self.sheet.set_margins(**MARGINS)
         self.sheet.set_header(f"&L&F&C&A&R{run}")
         self.sheet.set_footer("&RPage &P of &N")
 
@@ -102,8 +119,8 @@ class Pen:
     def put(self, cells: Iterable[Cell]) -> None:
         """Write many cells."""
         for cell in cells:
-            if cell.rows > 1:
-                area = Area(self.name, cell.row, cell.column, cell.rows)
+            if (cell.rows, cell.columns) != (1, 1):
+                area = Area(self.name, cell.row, cell.column, cell.rows, cell.columns)
                 self.span(area, cell.value, cell.style)
             else:
                 self.write(cell.row, cell.column, cell.value, cell.style, cell.formula)
@@ -132,6 +149,29 @@ class Pen:
         """Give every filled row its height; LibreOffice would choose another and stretch charts."""
         for row in {row for row, _ in self.filled} - set(self.sheet.row_info):
             self.sheet.set_row(row, ROW_HEIGHT)
+
+    def widths(self, column: int, *widths: float) -> None:
+        """Set the widths of columns side by side, in digits of the default font."""
+        for offset, width in enumerate(widths):
+            self.sheet.set_column(column + offset, column + offset, width)
+
+    def print_pages(self, *lists: Area, pictures: Iterable[Area] = ()) -> None:
+        """Print these areas, each from a new page on, at one scale that suits A4 and Letter.
+
+        Column widths must be set before.
+
+        Parameters
+        ----------
+        lists : Area
+            One page wide, and as many pages long as they need.
+        pictures : iterable of Area
+            What belongs on one page, behind the lists.
+        """
+        pages = [*lists, *pictures]
+        fits = [PAGE_WIDTH / self.sheet.pixels(page)[0] for page in pages]
+        fits += [PAGE_HEIGHT / self.sheet.pixels(page)[1] for page in pages[len(lists) :]]
+        self.sheet.set_print_scale(max(LEAST_SCALE, min(MOST_SCALE, int(100 * min(fits)))))
+        self.sheet.print_area_range = ",".join(page.reference for page in pages)
 
     def name_area(self, name: str, area: Area) -> None:
         """Give a block of cells a workbook-level name."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass
 from datetime import datetime
 
@@ -13,7 +14,7 @@ from grasp_xl.task import Task
 from grasp_xl.workbook.designs_sheet import MAX_DESIGNS
 from grasp_xl.workbook.history_sheet import MAX_HISTORY
 from grasp_xl.workbook.layout import RUN_LOG, Area
-from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.pen import ROW_HEIGHT, CellValue, Pen
 from grasp_xl.workbook.styles import Style
 
 INPUTS_HASH = "InputsHash"
@@ -26,6 +27,9 @@ STOP_REASON = "StopReason"
 DESIGNS_FOUND = "ValidDesignsFound"
 WHAT_IF_WRITTEN = "WhatIfWritten"
 """What-if genes as we wrote them, by which a designer's typing is told apart."""
+
+VALUE_WIDTH = 90
+"""Width of the column of values: at least as many characters to a line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +84,7 @@ def write_run_log(
         if isinstance(value, datetime):
             pen.date(row, 1, value)
         else:
-            pen.write(row, 1, value, Style.TEXT)
+            _write_value(pen, row, value)
         if name:
             pen.name_area(name, Area(RUN_LOG, row, 1))
     row = len(rows) + 3
@@ -88,9 +92,17 @@ def write_run_log(
     for label, value in parameter_rows(task):
         row += 1
         pen.write(row, 0, label, Style.LABEL)
-        pen.write(row, 1, value, Style.TEXT)
-    pen.sheet.set_column(0, 0, 32)
-    pen.sheet.set_column(1, 1, 90)
+        _write_value(pen, row, value)
+    pen.widths(0, 32, VALUE_WIDTH)
+    pen.print_pages(pictures=[Area(RUN_LOG, 0, 0, row + 1, 2)])
+
+
+def _write_value(pen: Pen, row: int, value: CellValue) -> None:
+    """Write a value, and make its row as high as its text needs."""
+    pen.write(row, 1, value, Style.LOGGED)
+    lines = math.ceil(len(str(value)) / VALUE_WIDTH)
+    if lines > 1:  # and one more, since lines break at spaces
+        pen.sheet.set_row(row, (1 + lines) * ROW_HEIGHT)
 
 
 def parameter_rows(task: Task) -> list[tuple[str, CellValue]]:

@@ -27,8 +27,15 @@ SEQUENCE = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#
 """Colours of series, told apart by the colour-blind (Okabe and Ito)."""
 
 _LINE = {"border": 1, "border_color": "#BFBFBF"}
-_COMPUTED = {**_LINE, "bg_color": "#F3F5F7"}
-_INPUT = {**_LINE, "bg_color": "#FFF8D6", "font_color": "#1F3FBF"}
+_BAND = {"top": 1, "bottom": 1, "top_color": "#BFBFBF", "bottom_color": "#BFBFBF"}
+"""A heading's line over several cells: no upright lines through its text."""
+_COMPUTED = {**_LINE, "bg_color": "#F3F5F7", "shrink": True}
+_TYPED = {"font_color": "#1F3FBF", "bold": True}
+"""Genes that may be typed: their rows keep the thesis's colours."""
+_INPUT = {**_LINE, "bg_color": "#FFF8D6", "font_color": "#1F3FBF", "shrink": True}
+"""A number too long for its cell is written smaller, not as ###."""
+_NUMBER = {**_COMPUTED, "align": "right"}
+"""Right as well where a dash or a word stands for the number."""
 
 
 class Style(Enum):
@@ -41,10 +48,10 @@ class Style(Enum):
         return properties
 
     TITLE = "title", {"bold": True, "font_size": 12}
-    HEADING = "heading", {"bold": True, "bg_color": "#DCE6F1", **_LINE}
+    HEADING = "heading", {"bold": True, "bg_color": "#DCE6F1", **_BAND}
     CARD_TITLE = (
         "card_title",
-        {"bold": True, "bg_color": "#24456B", "font_color": "#FFFFFF", **_LINE},
+        {"bold": True, "bg_color": "#24456B", "font_color": "#FFFFFF", **_BAND},
     )
     HEADER = "header", {"bold": True, "align": "center", "bg_color": "#EDEDED", **_LINE}
     STACKED_HEADER = (
@@ -65,24 +72,36 @@ class Style(Enum):
     INPUT = "input", {**_INPUT}
     INPUT_TEXT = "input_text", {**_INPUT, "align": "right"}
     INPUT_COORDINATE = "input_coordinate", {**_INPUT, "num_format": "0.0000"}
-    GOAL = "goal", {**_INPUT, "num_format": "#,##0.00####"}
+    GOAL = "goal", {**_INPUT, "align": "right", "num_format": "#,##0.00####"}
     SUCTION_GENE = "suction_gene", {"bg_color": "#FCD5B4", "align": "center", **_LINE}
     MAGNETS_GENE = "magnets_gene", {"bg_color": "#D8E4BC", "align": "center", **_LINE}
+    TYPED_SUCTION_GENE = (
+        "typed_suction_gene",
+        {"bg_color": "#FCD5B4", "align": "center", **_LINE, **_TYPED},
+    )
+    TYPED_MAGNETS_GENE = (
+        "typed_magnets_gene",
+        {"bg_color": "#D8E4BC", "align": "center", **_LINE, **_TYPED},
+    )
     MARK = "mark", {**_COMPUTED, "align": "center", "num_format": "0"}
-    COUNT = "count", {**_COMPUTED, "num_format": "#,##0"}
-    COORDINATE = "coordinate", {**_COMPUTED, "num_format": "0.0000"}
-    TORQUE = "torque", {**_COMPUTED, "num_format": "#,##0.00"}
-    FORCE = "force", {**_COMPUTED, "num_format": "#,##0.0000"}
-    MONEY = "money", {**_COMPUTED, "num_format": "#,##0.00"}
-    RATIO = "ratio", {**_COMPUTED, "num_format": "0.0000"}
-    RESULT = "result", {**_COMPUTED, "bold": True, "num_format": "#,##0.000"}
-    DIVERGENCE = "divergence", {**_COMPUTED, "bold": True, "num_format": "0.000"}
+    COUNT = "count", {**_NUMBER, "num_format": "#,##0"}
+    COORDINATE = "coordinate", {**_NUMBER, "num_format": "0.0000"}
+    TORQUE = "torque", {**_NUMBER, "num_format": "#,##0.00"}
+    FORCE = "force", {**_NUMBER, "num_format": "#,##0.0000"}
+    MONEY = "money", {**_NUMBER, "num_format": "#,##0.00"}
+    RATIO = "ratio", {**_NUMBER, "num_format": "0.0000"}
+    RESULT = "result", {**_NUMBER, "bold": True, "num_format": "#,##0.000"}
+    DIVERGENCE = "divergence", {**_NUMBER, "bold": True, "num_format": "0.000"}
     TEXT = "text", {**_COMPUTED}
+    LOGGED = (
+        "logged",
+        {**_COMPUTED, "shrink": False, "align": "left", "valign": "vcenter", "text_wrap": True},
+    )
     ABOVE = "above", {"bg_color": "#FFE08A", "font_color": "#7A4B00", "bold": True}
     FAILS = "fails", {"bg_color": "#F8C9C4", "font_color": "#9C0006", "bold": True}
     PASSES = "passes", {"bg_color": "#C9EBD2", "font_color": "#00612E"}
     STATUS = "status", {"bold": True}
-    DIFFERENCE = "difference", {**_COMPUTED, "num_format": "0.0E+00;-0.0E+00;0"}
+    DIFFERENCE = "difference", {**_NUMBER, "num_format": "0.0E+00;-0.0E+00;0"}
     CENTRED = "centred", {**_COMPUTED, "align": "center"}
     DATE = "date", {**_COMPUTED, "num_format": "yyyy-mm-dd hh:mm:ss", "align": "left"}
 

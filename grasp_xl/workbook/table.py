@@ -22,6 +22,11 @@ CRITERIA = (
     ("divergence", "Divergence", "Divergence", Style.DIVERGENCE),
 )
 """Column of a result's tables, title, label with unit, look."""
+GENERATION_WIDTH, GENE_WIDTH = 11.0, 6.3
+CRITERIA_WIDTHS = (8.0, 9.0, 14.5, 9.5, 9.5, 10.0)
+"""Widths of columns, so that all of a list stands on one page's width."""
+GRID = {"visible": True, "line": {"color": "#D9D9D9"}}
+"""Grid lines of charts."""
 
 
 def gene_labels(space: OptionSpace) -> list[str]:
@@ -67,4 +72,4 @@ def add_table(pen: Pen, name: str, area: Area, labels: list[str]) -> None:
     )
     pen.filled |= {(area.row, area.column + column) for column in range(area.columns)}
     pen.sheet.repeat_rows(area.row)
-    pen.sheet.set_row(area.row, 2 * ROW_HEIGHT)  # headers of two lines
+    pen.sheet.set_row(area.row, 3 * ROW_HEIGHT)  # headers of two lines, and the filter buttons

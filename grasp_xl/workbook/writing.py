@@ -74,7 +74,7 @@ def full_workbook(
     write_run_log(pens[layout.RUN_LOG], task, result, origin, best.chromosome)
     blocks = [(layout.USER_BLOCK.label, benchmark.block, result.benchmark)]
     blocks += [(card.title, card.block, card.grasp) for card in cards]
-    write_calc(pens[layout.CALC], task.space, _inputs(task), blocks)
+    write_calc(pens[layout.CALC], task.space, _inputs(task), blocks, plan)
     pens[layout.GA].sheet.activate()
     book.set_custom_property(STAMP_PROPERTY, PLACEHOLDER)
     book.close()
