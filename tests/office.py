@@ -35,6 +35,14 @@ def lack(reason: str) -> NoReturn:
     pytest.skip(reason)
 
 
+def need_arial() -> None:
+    """Skip or fail a test of page breaks where no font has the widths of the workbook's Arial."""
+    match = shutil.which("fc-match")
+    found = match and subprocess.check_output([match, "Arial"], text=True)  # noqa: S603
+    if not found or not any(name in found for name in ("Arial", "Liberation Sans")):
+        lack("no font is as wide as Arial; install fontconfig and fonts-liberation")
+
+
 class OfficeError(RuntimeError):
     """LibreOffice could not do what it was told, or ended."""
 

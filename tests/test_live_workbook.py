@@ -14,7 +14,7 @@ import numpy as np
 import openpyxl
 import pytest
 from live_cases import CRITERIA, PLACES, Case, random_case
-from office import CellValue, Office, Place, run_office
+from office import CellValue, Office, Place, need_arial, run_office
 
 from grasp_xl import commands
 from grasp_xl.chromosome import Chromosome
@@ -613,6 +613,7 @@ def test_difference_is_0_until_something_is_typed(edit, opened):
 @pytest.mark.parametrize("paper_mm", [(297.0, 210.0), (279.4, 215.9)], ids=["A4", "Letter"])
 def test_no_page_is_cut(paper_mm, bracket, office):
     """Each print area takes one page, in either paper; only the list of 104 magnets takes three."""
+    need_arial()
     office.open(bracket)
     with zipfile.ZipFile(bracket) as parts:
         book = parts.read("xl/workbook.xml").decode()
