@@ -69,6 +69,10 @@ class Room(NamedTuple):
     chosen_kind: IntArray
     price_so_far: FloatArray
     pull_so_far: FloatArray
+    list_price: FloatArray
+    list_place: IntArray
+    list_size: IntArray
+    least: FloatArray
 
 
 def make_room(locations: int, elements: int, entries: int) -> Room:
@@ -93,6 +97,10 @@ def make_room(locations: int, elements: int, entries: int) -> Room:
         np.empty(row, dtype=np.int64),
         np.empty(row),
         np.empty((row, 4)),
+        np.empty((2 * row, 2 * entries)),
+        np.empty((2 * row, 2 * entries), dtype=np.int64),
+        np.zeros(2 * row, dtype=np.int64),
+        np.empty((row, row)),
     )
 
 

@@ -22,6 +22,7 @@ from grasp_xl.search.exact_bound import (
     truss_of,
 )
 from grasp_xl.search.exact_leaf import BUDGET, ENTRIES, enumerate_node
+from grasp_xl.search.exact_many import enumerate_many
 from grasp_xl.search.exact_model import Locations
 from grasp_xl.space import FloatArray, IntArray
 
@@ -244,7 +245,15 @@ def expand(
         at = to_split(loc, w, boxes, n)
         if is_small(loc, w, boxes, n, at):
             budget = BUDGET if at >= 0 else np.iinfo(np.int64).max
-            if enumerate_node(loc, w, boxes, batch.u[i, 0], budget, found[i], genes[i], room):
+            if n > 5:
+                u = children.u[i, 0, 0]
+                u[:] = batch.u[i, 0]
+                if node_bound(loc, w, boxes, upper - slack, u, 12, room) >= upper - slack:
+                    continue
+                if enumerate_many(loc, w, boxes, u, budget, found[i], genes[i], room):
+                    continue
+                batch.u[i, 0] = u
+            elif enumerate_node(loc, w, boxes, batch.u[i, 0], budget, found[i], genes[i], room):
                 continue
         born[i] = split(loc, w, boxes, at, children.boxes[i])
         for c in range(born[i]):
