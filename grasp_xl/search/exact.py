@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 import os
+import threading
 import time
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -29,6 +30,7 @@ from grasp_xl.search.exact_kernel import (
     take_batch,
 )
 from grasp_xl.search.exact_leaf import ENTRIES
+from grasp_xl.search.exact_many import make_many_room
 from grasp_xl.search.exact_model import locate, weigh, weigh_goals
 from grasp_xl.search.feasibility import lifting_counts
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
@@ -37,6 +39,12 @@ Status = Literal["optimal", "feasible", "infeasible", "unknown"]
 
 BATCH = 64
 """Nodes that are expanded at once; the same on every machine, so that results are."""
+
+PART = 4
+"""Nodes that a worker takes at a time."""
+
+POLL_SECONDS = 0.05
+"""How often somebody's wish to stop is looked for while nodes are expanded."""
 
 PROOF = 1e-9
 """Relative accuracy of the proof: no grasp is better by more than that."""
@@ -146,12 +154,28 @@ class Found(NamedTuple):
     active: tuple[tuple[int, ...], ...]
 
 
+class _Shared:
+    """An iterator that threads share: each value goes to one of them."""
+
+    def __init__(self, values: Iterable[int]) -> None:
+        self._values = iter(values)
+        self._lock = threading.Lock()
+
+    def __iter__(self) -> Iterator[int]:
+        return self
+
+    def __next__(self) -> int:
+        with self._lock:
+            return next(self._values)
+
+
 class _Frontier:
-    """Open nodes, best bound first."""
+    """Open nodes, best first."""
 
     def __init__(self, elements: int) -> None:
         self._nodes = make_nodes(0, elements)
         self._order = np.zeros(0, dtype=np.int64)
+        self._key = np.zeros(0)
         self._age = np.zeros(0, dtype=np.int64)
         self._size = 0
         self._born = 0
@@ -162,27 +186,29 @@ class _Frontier:
     @property
     def bound(self) -> float:
         """Least bound, infinity where no node is open."""
-        return float(self._nodes.bound[self._order[0]]) if self._size else math.inf
+        return float(self._nodes.bound[self._order[: self._size]].min(initial=math.inf))
+
+    @property
+    def key(self) -> float:
+        """Key of the node that comes first, infinity where none is open."""
+        return float(self._key[self._order[0]]) if self._size else math.inf
 
     def take(self, batch: Nodes, below: float) -> int:
         """Move the first nodes below a bound into a batch; return how many."""
-        taken = take_batch(self._nodes, self._order, self._age, self._size, batch, below)
-        self._size -= taken
+        taken, self._size = take_batch(
+            self._nodes, self._order, self._key, self._age, self._size, batch, below
+        )
         return taken
 
     def put(self, children: Nodes, born: IntArray, below: float) -> None:
         """Take in all children with a bound below a limit."""
         self._make_room(int(born.sum()))
         size = put_children(
-            *(self._nodes, self._order, self._age, self._size, self._born),
+            *(self._nodes, self._order, self._key, self._age, self._size, self._born),
             *(children, born, below),
         )
         self._born += size - self._size
         self._size = size
-
-    def clear(self) -> None:
-        """Drop all nodes."""
-        self._size = 0
 
     def _make_room(self, more: int) -> None:
         capacity = len(self._order)
@@ -193,6 +219,7 @@ class _Frontier:
         self._nodes = make_nodes(capacity + new, old.boxes.shape[1])
         for kept, field in zip(self._nodes, old, strict=True):
             kept[:capacity] = field
+        self._key = np.concatenate([self._key, np.zeros(new)])
         self._age = np.concatenate([self._age, np.zeros(new, dtype=np.int64)])
         self._order = np.concatenate([self._order, np.arange(capacity, capacity + new)])
 
@@ -261,42 +288,39 @@ class _Search:
     def run(self, stop: Callable[[], bool], on_progress: OnBound | None) -> Proof:
         """Expand nodes until none is left that could hold a better grasp, or somebody stops."""
         workers = os.cpu_count() or 1
-        rooms = [make_room(len(self.locations.xyz), self.elements, ENTRIES) for _ in range(workers)]
+        halt = np.zeros(1, dtype=np.int64)
+        places = len(self.locations.xyz)
+        rooms = [
+            (make_room(places, self.elements, ENTRIES), make_many_room(places, self.elements, halt))
+            for _ in range(workers)
+        ]
         batch = make_nodes(BATCH, self.elements)
         children = make_nodes((BATCH, self.elements + 1), self.elements)
         born = np.zeros(BATCH, dtype=np.int64)
         found = np.zeros((BATCH, self.settings.top))
         genes = np.zeros((BATCH, self.settings.top, self.elements, 2), dtype=np.int64)
-        self._start()
-        with ThreadPoolExecutor(workers) as threads:
 
-            def work(worker: int) -> None:
+        def work(worker: int) -> None:
+            for first in parts:  # shared: each worker takes the next part
+                behind = min(first + PART, taken)
                 expand(
-                    self.locations,
-                    self.weights,
-                    self.goal_weights,
-                    batch,
-                    taken,
-                    worker,
-                    workers,
-                    upper,
-                    slack,
-                    children,
-                    born,
-                    found,
-                    genes,
-                    rooms[worker],
+                    *(self.locations, self.weights, self.goal_weights, batch, first, behind),
+                    *(upper, slack, children, born, found, genes, *rooms[worker]),
                 )
 
+        self._start()
+        with ThreadPoolExecutor(workers) as threads:
             while not (stop() or self._out_of_time() or self._close_enough()):
                 upper, slack = self.upper, self.slack
-                frontier = self._next_frontier()
-                taken = frontier.take(batch, upper - slack)
+                taken, frontier = self._take_batch(batch, upper - slack)
                 if taken == 0:
-                    self.few.clear()
-                    self.many.clear()
                     break
-                list(threads.map(work, range(workers)))
+                parts = _Shared(range(0, taken, PART))
+                running = [threads.submit(work, worker) for worker in range(workers)]
+                while wait(running, POLL_SECONDS).not_done:
+                    halt[0] = halt[0] or stop() or self._out_of_time()
+                for each in running:
+                    each.result()  # a failure in a worker voids the proof
                 for i in range(taken):
                     self._take_all(found[i], genes[i], sum(self.counts[batch.choice[i]]), upper)
                 frontier.put(children, born[:taken], self.upper - self.slack)
@@ -319,9 +343,11 @@ class _Search:
             frontier = self.few if sum(counts) <= FEW_ELEMENTS else self.many
             frontier.put(root, np.ones(1, dtype=np.int64), self.upper - self.slack)
 
-    def _next_frontier(self) -> _Frontier:
-        first = self.batches < FEW_BATCHES and self.few.bound < self.upper - self.slack
-        return self.few if first or self.few.bound < self.many.bound else self.many
+    def _take_batch(self, batch: Nodes, below: float) -> tuple[int, _Frontier]:
+        first = self.batches < FEW_BATCHES or self.few.key < self.many.key
+        frontier, other = (self.few, self.many) if first else (self.many, self.few)
+        taken = frontier.take(batch, below)
+        return (taken, frontier) if taken else (other.take(batch, below), other)
 
     def _take_all(self, values: FloatArray, genes: IntArray, elements: int, upper: float) -> None:
         for value, rows in zip(values.tolist(), genes, strict=True):

@@ -69,10 +69,6 @@ class Room(NamedTuple):
     chosen_kind: IntArray
     price_so_far: FloatArray
     pull_so_far: FloatArray
-    list_price: FloatArray
-    list_place: IntArray
-    list_size: IntArray
-    least: FloatArray
 
 
 def make_room(locations: int, elements: int, entries: int) -> Room:
@@ -97,14 +93,18 @@ def make_room(locations: int, elements: int, entries: int) -> Room:
         np.empty(row, dtype=np.int64),
         np.empty(row),
         np.empty((row, 4)),
-        np.empty((2 * row, 2 * entries)),
-        np.empty((2 * row, 2 * entries), dtype=np.int64),
-        np.zeros(2 * row, dtype=np.int64),
-        np.empty((row, row)),
     )
 
 
 # --- geometry of boxes ---
+
+
+@allocation_free
+def squared_distance(loc: Locations, p: int, q: int) -> float:
+    """Return the squared plan-view distance of two locations (mm^2)."""
+    dx, dy = loc.xyz[p, 0] - loc.xyz[q, 0], loc.xyz[p, 1] - loc.xyz[q, 1]
+    squared: float = dx * dx + dy * dy
+    return squared
 
 
 @allocation_free

@@ -24,6 +24,7 @@ from grasp_xl.search.exact_bound import (
     no_truss,
     price,
     shortest_truss,
+    squared_distance,
     truss_of,
 )
 from grasp_xl.search.exact_model import CUPS, MAGNETS, Locations
@@ -83,14 +84,6 @@ def true_value(loc: Locations, w: Weights, n: int, room: Room) -> float:
         return np.inf
     value: float = w.base + w.moment * arm + w.deviation * deviation + w.structure * structure
     return value
-
-
-@allocation_free
-def squared_distance(loc: Locations, p: int, q: int) -> float:
-    """Return the squared plan-view distance of two locations (mm^2)."""
-    dx, dy = loc.xyz[p, 0] - loc.xyz[q, 0], loc.xyz[p, 1] - loc.xyz[q, 1]
-    squared: float = dx * dx + dy * dy
-    return squared
 
 
 @allocation_free

@@ -1,11 +1,14 @@
-"""Enumerating all grasps of many elements of a small node of the exact search (compiled).
+"""Enumerating all grasps of four or more elements on one main truss of the exact search (compiled).
 
-Which kinds stand at the chosen locations is left open until all are chosen: a location has the
-price of its cheaper kind.  After each choice the locations that are too close to it are struck
-off, and cliques of what is left bound the elements to come.
+Elements are chosen depth first, in the order of their prices.  Which kinds they are is left open: a
+location has the price of its cheaper kind, and what the chosen ones pull is listed for every share
+of the kinds among them.  After each choice the locations that are too close are struck off, and
+cliques of what is left bound the elements to come.  The last two are looked up as a pair.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,20 +17,100 @@ from grasp_xl.search.exact_bound import (
     Room,
     Truss,
     Weights,
+    branch,
     cheapest,
-    group_end,
     is_barred,
     joins_clique,
     no_truss,
-    pop,
     price,
-    push,
     shortest_truss,
     truss_of,
 )
-from grasp_xl.search.exact_leaf import BOX, COUNT, LAST_PRICE, REST, keep, squared_distance, true_value
-from grasp_xl.search.exact_model import CUPS, MAGNETS, Locations
+from grasp_xl.search.exact_leaf import keep
+from grasp_xl.search.exact_model import Locations
+from grasp_xl.search.exact_pairs import (
+    GRID,
+    Listed,
+    Pairs,
+    fit_together,
+    make_pairs,
+    pull_of,
+    tabulate_pairs,
+)
 from grasp_xl.space import FloatArray, IntArray
+
+ENDS = 2
+"""Elements that the main truss's ends give."""
+
+MANY_MIN, MANY_MAX = 4, 14
+"""Elements of a grasp that this search is for; the shares of the kinds double with each."""
+
+TRY = 20_000
+TRY_LISTED = 256
+"""Work that the first try at one main truss may take, and the locations that it looks at; every
+later try may take twice as much."""
+
+
+class Chosen(NamedTuple):
+    """What is known at each depth, a row a depth.
+
+    position ``(n,)`` entry chosen; left ``(n, m)`` ranks of the locations left, left_size ``(n,)``;
+    least ``(n, n)`` bound of the price of each element to come; price, fixed ``(n,)`` value so far
+    with prices, and without the moment.  Of each share of the kinds among the elements chosen so
+    far: pull ``(n, s, 3)`` (mm), magnets ``(n, s)``, kinds ``(n, s)`` a bit for each element, and
+    shares ``(n,)`` how many.
+    """
+
+    position: IntArray
+    left: IntArray
+    left_size: IntArray
+    least: FloatArray
+    price: FloatArray
+    fixed: FloatArray
+    pull: FloatArray
+    magnets: IntArray
+    kinds: IntArray
+    shares: IntArray
+
+
+class ManyRoom(NamedTuple):
+    """Arrays that one worker needs; halt ``(1,)`` is set from outside where it shall stop."""
+
+    listed: Listed
+    pairs: Pairs
+    chosen: Chosen
+    halt: IntArray
+
+
+def make_many_room(locations: int, elements: int, halt: IntArray) -> ManyRoom:
+    """Make the arrays for so many locations and elements of a grasp."""
+    depths = elements + 1
+    shares = 1 << max(0, min(elements, MANY_MAX) - 2)
+    return ManyRoom(
+        Listed(
+            np.empty(locations),
+            np.empty(locations),
+            np.empty(locations, dtype=np.int64),
+            np.zeros(1, dtype=np.int64),
+        ),
+        make_pairs(),
+        Chosen(
+            np.empty(depths, dtype=np.int64),
+            np.empty((depths, locations), dtype=np.int64),
+            np.empty(depths, dtype=np.int64),
+            np.empty((depths, depths)),
+            np.empty(depths),
+            np.empty(depths),
+            np.empty((depths, shares, 3)),
+            np.empty((depths, shares), dtype=np.int64),
+            np.empty((depths, shares), dtype=np.int64),
+            np.empty(depths, dtype=np.int64),
+        ),
+        halt,
+    )
+
+
+# --- what is left at each depth ---
 
 
 @allocation_free
@@ -38,67 +121,75 @@ def list_locations(
     cell: int,
     u: FloatArray,
     below: float,
-    row: int,
-    room: Room,
+    most: int,
+    stack: IntArray,
+    out: Listed,
 ) -> bool:
-    """List the locations of a cell with prices below a limit, rising; False if too many."""
-    size, n = 0, 0
-    value, _ = price(loc, w, t, cell, u)
-    if value < below and not is_barred(loc, t, cell):
-        push(room, 0, value, cell)
-        size = 1
-    while size > 0:
-        value, box = room.price[0], room.tag[0]
-        size -= 1
-        pop(room, size)
-        if loc.child[box, 0] < 0:
-            if n == room.list_price.shape[1]:
-                return False
-            room.list_price[row, n], room.list_place[row, n] = value, loc.run[box, 0]
-            n += 1
-            continue
-        for side in range(2):
-            half = loc.child[box, side]
-            value, _ = price(loc, w, t, half, u)
-            if value < below and not is_barred(loc, t, half):
-                push(room, size, value, half)
-                size += 1
-    room.list_size[row] = n
-    return True
+    """List the locations of a cell with prices below a limit, rising; False if not all of them.
 
-
-@allocation_free
-def narrow(
-    loc: Locations, w: Weights, t: Truss, source: int, first: int, fresh: int, depth: int, room: Room
-) -> None:
-    """List, for this depth, the entries of a list from ``first`` on that may stand.
-
-    They keep their distance from the elements chosen from ``fresh`` on.
+    Only the ``most`` cheapest ones are listed.
     """
     n = 0
-    for e in range(first, room.list_size[source]):
-        place = room.list_place[source, e]
-        fits = True
-        for i in range(fresh, depth):
-            squared = squared_distance(loc, place, room.chosen[i])
-            if squared < w.clearance * w.clearance or squared > t.reach:
-                fits = False
-                break
-        if fits:
-            room.list_price[depth, n] = room.list_price[source, e]
-            room.list_place[depth, n] = place
-            n += 1
-    room.list_size[depth] = n
+    complete = True
+    stack[0] = cell
+    size = 1
+    while size > 0:
+        size -= 1
+        box = stack[size]
+        value = price(loc, w, t, box, u)[0]
+        if value >= below or is_barred(loc, t, box):
+            continue
+        if loc.child[box, 0] >= 0:
+            stack[size], stack[size + 1] = loc.child[box, 1], loc.child[box, 0]
+            size += 2
+            continue
+        if n == most:
+            complete = False
+            n -= 1
+        slot = n
+        while slot > 0 and out.price[slot - 1] > value:
+            out.price[slot], out.fixed[slot] = out.price[slot - 1], out.fixed[slot - 1]
+            out.place[slot] = out.place[slot - 1]
+            slot -= 1
+        out.price[slot] = value
+        out.fixed[slot] = (
+            loc.least_deviation[box] * w.deviation + branch(loc, t, box) * w.structure
+        )
+        out.place[slot] = loc.run[box, 0]
+        n += 1
+        if n == most and not complete:
+            below = out.price[n - 1]
+    out.size[0] = n
+    return complete
 
 
 @allocation_free
-def clique_prices(loc: Locations, w: Weights, row: int, wanted: int, room: Room) -> float:
-    """Return a bound on the prices of so many elements from a list; writes each one's [5]."""
+def narrow(loc: Locations, w: Weights, t: Truss, depth: int, room: ManyRoom) -> None:
+    """List for this depth what is left behind the element that was chosen last."""
+    c, place = room.chosen, room.listed.place
+    last = depth - 1
+    entry = c.position[last]
+    n = 0
+    for e in range(entry + 1, c.left_size[last]):
+        rank = c.left[last, e]
+        if fit_together(loc, w, t, place[rank], place[c.left[last, entry]]):
+            c.left[depth, n] = rank
+            n += 1
+    c.left_size[depth] = n
+
+
+@allocation_free
+def clique_prices(
+    loc: Locations, w: Weights, depth: int, wanted: int, room: Room, many: ManyRoom
+) -> float:
+    """Return a bound on the prices of so many elements of what is left; writes each one's [5]."""
+    c = many.chosen
     taken, total = 0, 0.0
-    for e in range(room.list_size[row]):
-        if not joins_clique(loc, w, room.list_place[row, e], taken, room):
-            room.least[row, taken] = room.list_price[row, e]
-            total += room.list_price[row, e]
+    for e in range(c.left_size[depth]):
+        rank = c.left[depth, e]
+        if not joins_clique(loc, w, many.listed.place[rank], taken, room):
+            c.least[depth, taken] = many.listed.price[rank]
+            total += many.listed.price[rank]
             taken += 1
             if taken == wanted:
                 return total
@@ -106,71 +197,180 @@ def clique_prices(loc: Locations, w: Weights, row: int, wanted: int, room: Room)
 
 
 @allocation_free
-def least_from(row: int, left: int, room: Room) -> float:
-    """Return a bound on ``left`` elements of a list of which none stands before its position."""
-    own = room.list_price[row, room.position[row]]
-    total: float = own
-    for i in range(1, left):
-        total += max(own, room.least[row, i])
+def two_least(depth: int, room: ManyRoom) -> float:
+    """Return the sum of the two least prices without the moment of what is left."""
+    c = room.chosen
+    first = second = np.inf
+    for e in range(c.left_size[depth]):
+        fixed = room.listed.fixed[c.left[depth, e]]
+        second = min(second, max(first, fixed))
+        first = min(first, fixed)
+    total: float = first + second
     return total
 
 
 @allocation_free
-def assign_kinds(
-    loc: Locations, w: Weights, n: int, found: FloatArray, genes: IntArray, room: Room
-) -> None:
-    """Try every share of the kinds among the chosen locations."""
-    fixed = unpulled_value(loc, w, n, room)
-    worst = len(found) - 1
-    if fixed >= found[worst]:
-        return
-    magnets = 0
-    for i in range(n):  # the first share: magnets as late as possible
-        room.chosen_kind[i] = MAGNETS if i >= w.cups else CUPS
-    while True:
-        x = y = z = 0.0
-        possible = True
-        for i in range(n):
-            place, kind = room.chosen[i], room.chosen_kind[i]
-            possible = possible and loc.footprint[place, kind] >= 0
-            pull = w.magnet_pull if kind == MAGNETS else w.cup_pull
-            x += pull * loc.xyz[place, 0]
-            y += pull * loc.xyz[place, 1]
-            z += pull * loc.xyz[place, 2]
-        if possible and fixed + w.moment * np.sqrt(x * x + y * y + z * z) < found[worst]:
-            keep(loc, w, n, found, genes, room)
-        # the next share: the last cup before a magnet moves behind it, and all after it go back
-        i = n - 1
-        magnets = 0
-        while i > 0 and not (room.chosen_kind[i] == MAGNETS and room.chosen_kind[i - 1] == CUPS):
-            magnets += room.chosen_kind[i]
-            i -= 1
-        if i == 0:
-            return
-        room.chosen_kind[i - 1], room.chosen_kind[i] = MAGNETS, CUPS
-        for k in range(i + 1, n):
-            room.chosen_kind[k] = MAGNETS if k >= n - magnets else CUPS
+def share_kinds(loc: Locations, w: Weights, place: int, depth: int, c: Chosen) -> None:
+    """List every share of the kinds among the elements before this depth, the last at ``place``."""
+    last = depth - 1
+    n = 0
+    for e in range(c.shares[last]):
+        for kind in range(2):
+            magnets = c.magnets[last, e] + kind
+            if loc.footprint[place, kind] < 0 or magnets > w.magnets or depth - magnets > w.cups:
+                continue
+            pull = pull_of(w, kind)
+            for axis in range(3):
+                c.pull[depth, n, axis] = c.pull[last, e, axis] + pull * loc.xyz[place, axis]
+            c.magnets[depth, n] = magnets
+            c.kinds[depth, n] = c.kinds[last, e] | kind << last
+            n += 1
+    c.shares[depth] = n
+
+
+# --- the last two elements ---
 
 
 @allocation_free
-def unpulled_value(loc: Locations, w: Weights, n: int, room: Room) -> float:
-    """Return a bound on the value of the chosen locations without their moment."""
-    for i in range(n):
-        room.chosen_kind[i] = CUPS
-    deviation = 0.0
-    for i in range(n):
-        deviation += loc.deviation[room.chosen[i]]
-    value: float = w.base + w.deviation * deviation
-    if w.trussed:
-        longest, a, b = 0.0, 0, 1
-        for i in range(n):
-            for j in range(i):
-                squared = squared_distance(loc, room.chosen[i], room.chosen[j])
-                if squared > longest:
-                    longest, a, b = squared, j, i
-        length = np.sqrt(longest)
-        value += w.structure * w.ratio * length
-    return value
+def look_up_pairs(
+    loc: Locations,
+    w: Weights,
+    t: Truss,
+    found: FloatArray,
+    genes: IntArray,
+    room: Room,
+    many: ManyRoom,
+) -> int:
+    """Try the pairs of the grids that may go with the chosen elements; return how many."""
+    n = w.cups + w.magnets
+    c, frame = many.chosen, many.pairs.frame
+    worst = len(found) - 1
+    fixed = c.fixed[n - 2]
+    spare = found[worst] - fixed - two_least(n - 2, many)
+    if spare <= 0.0:
+        return 0
+    radius = spare / w.moment if w.moment > 0.0 else np.inf
+    wide, high = radius * frame[2] + 1e-6, radius * frame[3] + 1e-6
+    rank = c.left[n - 3, c.position[n - 3]] if n - 2 > ENDS else -1
+    tried = 0
+    for s in range(c.shares[n - 2]):
+        magnets = w.magnets - c.magnets[n - 2, s]
+        x = (-c.pull[n - 2, s, 0] - frame[0]) * frame[2]
+        y = (-c.pull[n - 2, s, 1] - frame[1]) * frame[3]
+        if magnets > 2 or x + wide < 0.0 or x - wide > GRID or y + high < 0.0 or y - high > GRID:
+            continue
+        left = int(min(max(x - wide, 0.0), GRID - 1.0))
+        right = int(min(max(x + wide, 0.0), GRID - 1.0))
+        bottom = int(min(max(y - high, 0.0), GRID - 1.0))
+        top = int(min(max(y + high, 0.0), GRID - 1.0))
+        for j in range(bottom, top + 1):
+            row = (magnets * GRID + j) * GRID
+            first, behind = many.pairs.start[row + left], many.pairs.start[row + right + 1]
+            tried += behind - first
+            for e in range(first, behind):
+                value = fixed + many.pairs.fixed[e] + w.moment * pulled(many, n - 2, s, e)
+                if value < found[worst] and many.pairs.member[e, 0] > rank:
+                    try_pair(loc, w, t, s, many.pairs.member[e], found, genes, room, many)
+    return tried
+
+
+@allocation_free
+def pulled(room: ManyRoom, depth: int, share: int, pair: int) -> float:
+    """Return the arm of the chosen elements with a pair (mm)."""
+    x = room.chosen.pull[depth, share, 0] + room.pairs.pull[pair, 0]
+    y = room.chosen.pull[depth, share, 1] + room.pairs.pull[pair, 1]
+    z = room.chosen.pull[depth, share, 2] + room.pairs.pull[pair, 2]
+    return float(np.sqrt(x * x + y * y + z * z))
+
+
+@allocation_free
+def try_pair(
+    loc: Locations,
+    w: Weights,
+    t: Truss,
+    share: int,
+    member: IntArray,
+    found: FloatArray,
+    genes: IntArray,
+    room: Room,
+    many: ManyRoom,
+) -> None:
+    """Keep the chosen elements with a pair, if all stand apart and it is among the best."""
+    n = w.cups + w.magnets
+    p, q = many.listed.place[member[0]], many.listed.place[member[1]]
+    for i in range(n - 2):
+        if not fit_together(loc, w, t, p, room.chosen[i]):
+            return
+        if not fit_together(loc, w, t, q, room.chosen[i]):
+            return
+        room.chosen_kind[i] = many.chosen.kinds[n - 2, share] >> i & 1
+    room.chosen[n - 2], room.chosen[n - 1] = p, q
+    room.chosen_kind[n - 2], room.chosen_kind[n - 1] = member[2] >> 1, member[2] & 1
+    keep(loc, w, n, found, genes, room)
+
+
+@allocation_free
+def try_all_pairs(
+    loc: Locations,
+    w: Weights,
+    t: Truss,
+    found: FloatArray,
+    genes: IntArray,
+    room: Room,
+    many: ManyRoom,
+) -> int:
+    """Try all pairs of what is left, where the grids cannot hold them; return how many."""
+    n = w.cups + w.magnets
+    c, member = many.chosen, many.pairs.member[0]
+    worst = len(found) - 1
+    tried = 0
+    for e in range(c.left_size[n - 2]):
+        for f in range(e + 1, c.left_size[n - 2]):
+            p, q = c.left[n - 2, e], c.left[n - 2, f]
+            tried += 1
+            if c.price[n - 2] + many.listed.price[p] + many.listed.price[q] >= found[worst]:
+                break
+            a, b = many.listed.place[p], many.listed.place[q]
+            fixed = c.fixed[n - 2] + many.listed.fixed[p] + many.listed.fixed[q]
+            if fixed >= found[worst] or not fit_together(loc, w, t, a, b):
+                continue
+            for code in range(4):
+                if loc.footprint[a, code >> 1] < 0 or loc.footprint[b, code & 1] < 0:
+                    continue
+                for axis in range(3):
+                    many.pairs.pull[0, axis] = pull_of(w, code >> 1) * loc.xyz[a, axis]
+                    many.pairs.pull[0, axis] += pull_of(w, code & 1) * loc.xyz[b, axis]
+                member[0], member[1], member[2] = p, q, code
+                for s in range(c.shares[n - 2]):
+                    tried += 1
+                    if c.magnets[n - 2, s] + (code >> 1) + (code & 1) != w.magnets:
+                        continue
+                    if fixed + w.moment * pulled(many, n - 2, s, 0) < found[worst]:
+                        try_pair(loc, w, t, s, member, found, genes, room, many)
+    return tried
+
+
+# --- the search ---
+
+
+@allocation_free
+def choose_ends(
+    loc: Locations, w: Weights, t: Truss, boxes: IntArray, u: FloatArray, room: Room, many: ManyRoom
+) -> None:
+    """Choose the ends of the main truss."""
+    c = many.chosen
+    fixed = w.base + w.ratio * shortest_truss(loc, w, t) * w.structure
+    total = fixed + u[3] * w.magnets
+    c.pull[0, 0, 0] = c.pull[0, 0, 1] = c.pull[0, 0, 2] = 0.0
+    c.magnets[0, 0] = c.kinds[0, 0] = 0
+    c.shares[0] = 1
+    for i in range(ENDS):
+        place = loc.run[boxes[i], 0]
+        room.chosen[i] = place
+        fixed += loc.deviation[place] * w.deviation
+        total += price(loc, w, no_truss(), boxes[i], u)[0]
+        share_kinds(loc, w, place, i + 1, c)
+    c.price[ENDS], c.fixed[ENDS] = total, fixed
 
 
 @allocation_free
@@ -179,91 +379,86 @@ def enumerate_many(
     w: Weights,
     boxes: IntArray,
     u: FloatArray,
-    budget: int,
+    tries: int,
     found: FloatArray,
     genes: IntArray,
     room: Room,
+    many: ManyRoom,
 ) -> bool:
-    """Look at all grasps of a node that may enter ``found``; False if that takes too long.
+    """Look at all grasps on one main truss that may enter ``found``; False if that takes too long.
 
-    Parameters as of :func:`grasp_xl.search.exact_leaf.enumerate_node`.
+    Parameters
+    ----------
+    loc, w : Locations, Weights
+    boxes : IntArray
+        ``(n,)``; the first two are single locations, all others the same cell.
+    u : FloatArray
+        ``(4,)`` multipliers.
+    tries : int
+        How often this node was looked at before; each look may take twice as long.
+    found, genes : FloatArray, IntArray
+        ``(k,)`` values of the best grasps so far, rising, and ``(k, n, 2)`` their locations and
+        kinds.
+    room, many : Room, ManyRoom
     """
     n = w.cups + w.magnets
+    c, listed = many.chosen, many.listed
     worst = len(found) - 1
     t = truss_of(loc, w, boxes)
-    total = w.base + u[3] * w.magnets
-    first = 0
-    if t.a >= 0:
-        total += w.ratio * shortest_truss(loc, w, t) * w.structure
-        first = 2
-        for i in range(2):
-            room.chosen[i] = loc.run[boxes[i], 0]
-            total += price(loc, w, no_truss(), boxes[i], u)[0]
-    room.price_so_far[first] = total
-    # lists of all groups, in rows behind those of the depths
-    groups, depth = 0, first
-    while depth < n:
-        last = group_end(w, boxes, n, depth)
-        value = cheapest(loc, w, t, boxes[depth], depth, last, u, room)
-        if value == np.inf:
-            return True
-        total += value
-        room.group[groups, BOX], room.group[groups, COUNT] = boxes[depth], last - depth
-        room.group_sum[groups, REST] = value
-        room.group_sum[groups, LAST_PRICE] = price(loc, w, t, room.pick[last - 1], u)[0]
-        for number in range(last - depth):
-            room.depth_group[depth + number, 0] = groups
-            room.depth_group[depth + number, 1] = number
-        groups += 1
-        depth = last
-    if total >= found[worst]:
+    choose_ends(loc, w, t, boxes, u, room, many)
+    spare = found[worst] - c.price[ENDS] - cheapest(loc, w, t, boxes[ENDS], ENDS, n, u, room)
+    if not spare > 0.0:
         return True
-    for g in range(groups):
-        below = found[worst] - total + room.group_sum[g, LAST_PRICE]
-        if not list_locations(loc, w, t, room.group[g, BOX], u, below, n + g, room):
-            return False
-        budget -= room.list_size[n + g] // 8
-    rest = 0.0
-    for g in range(groups - 1, -1, -1):
-        value = room.group_sum[g, REST]
-        room.group_sum[g, REST] = rest
-        rest += value
-    depth = first
-    enter = True
-    while depth >= first:
-        g, number = room.depth_group[depth, 0], room.depth_group[depth, 1]
-        left = room.group[g, COUNT] - number
-        if enter:
-            if number == 0:
-                narrow(loc, w, t, n + g, 0, 0, depth, room)
-                budget -= room.list_size[n + g] // 8
-            else:
-                narrow(loc, w, t, depth - 1, room.position[depth - 1] + 1, depth - 1, depth, room)
-                budget -= room.list_size[depth - 1] // 8
-            so_far = room.price_so_far[depth] + room.group_sum[g, REST]
-            enter = False
-            room.position[depth] = -1
-            if so_far + clique_prices(loc, w, depth, left, room) >= found[worst]:
+    dearest = price(loc, w, t, room.pick[n - 1], u)[0]
+    below, most = spare + dearest, TRY_LISTED << tries
+    complete = list_locations(loc, w, t, boxes[ENDS], u, below, most, room.tag, listed)
+    dearest += price(loc, w, t, room.pick[n - 2], u)[0]
+    tabulated = tabulate_pairs(loc, w, t, listed, spare + dearest, many.pairs)
+    for rank in range(listed.size[0]):
+        c.left[ENDS, rank] = rank
+    c.left_size[ENDS] = listed.size[0]
+    budget = TRY << tries
+    depth = ENDS
+    enters = True
+    while depth >= ENDS:
+        wanted = n - depth
+        if enters:
+            enters = False
+            c.position[depth] = -1
+            budget -= c.left_size[depth] // 8
+            total = c.price[depth] + clique_prices(loc, w, depth, wanted, room, many)
+            if total >= found[worst]:
                 depth -= 1
                 continue
-        room.position[depth] += 1
-        if room.position[depth] + left > room.list_size[depth]:
+            if depth > ENDS:
+                share_kinds(loc, w, room.chosen[depth - 1], depth, c)
+            if wanted == 2:
+                if tabulated:
+                    tried = look_up_pairs(loc, w, t, found, genes, room, many)
+                else:
+                    tried = try_all_pairs(loc, w, t, found, genes, room, many)
+                budget -= tried // 16
+                depth -= 1
+                continue
+        c.position[depth] += 1
+        entry = c.position[depth]
+        if entry + wanted > c.left_size[depth]:
             depth -= 1
             continue
-        so_far = room.price_so_far[depth] + room.group_sum[g, REST]
-        if so_far + least_from(depth, left, room) >= found[worst]:
+        rank = c.left[depth, entry]
+        total = c.price[depth] + listed.price[rank]
+        for i in range(1, wanted):
+            total += max(listed.price[rank], c.least[depth, i])
+        if total >= found[worst]:
             depth -= 1
             continue
         budget -= 1
-        if budget < 0:
+        if budget < 0 or many.halt[0]:
             return False
-        entry = room.position[depth]
-        room.chosen[depth] = room.list_place[depth, entry]
-        if depth == n - 1:
-            budget -= 2
-            assign_kinds(loc, w, n, found, genes, room)
-            continue
-        room.price_so_far[depth + 1] = room.price_so_far[depth] + room.list_price[depth, entry]
+        room.chosen[depth] = listed.place[rank]
+        c.price[depth + 1] = c.price[depth] + listed.price[rank]
+        c.fixed[depth + 1] = c.fixed[depth] + listed.fixed[rank]
         depth += 1
-        enter = True
-    return True
+        narrow(loc, w, t, depth, many)
+        enters = True
+    return complete
