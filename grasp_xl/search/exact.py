@@ -14,14 +14,14 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, Self
 
 import numpy as np
 
 from grasp_xl.chromosome import Chromosome, from_active
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import SLACK, Rules
-from grasp_xl.search.exact_bound import make_room, node_bound
+from grasp_xl.search.exact_bound import Room, make_room, node_bound
 from grasp_xl.search.exact_kernel import (
     Nodes,
     expand,
@@ -30,7 +30,7 @@ from grasp_xl.search.exact_kernel import (
     take_batch,
 )
 from grasp_xl.search.exact_leaf import ENTRIES
-from grasp_xl.search.exact_many import make_many_room
+from grasp_xl.search.exact_many import ManyRoom, make_many_room
 from grasp_xl.search.exact_model import locate, weigh, weigh_goals
 from grasp_xl.search.feasibility import lifting_counts
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
@@ -154,21 +154,6 @@ class Found(NamedTuple):
     active: tuple[tuple[int, ...], ...]
 
 
-class _Shared:
-    """An iterator that threads share: each value goes to one of them."""
-
-    def __init__(self, values: Iterable[int]) -> None:
-        self._values = iter(values)
-        self._lock = threading.Lock()
-
-    def __iter__(self) -> Iterator[int]:
-        return self
-
-    def __next__(self) -> int:
-        with self._lock:
-            return next(self._values)
-
-
 class _Frontier:
     """Open nodes, best first."""
 
@@ -287,43 +272,22 @@ class _Search:
 
     def run(self, stop: Callable[[], bool], on_progress: OnBound | None) -> Proof:
         """Expand nodes until none is left that could hold a better grasp, or somebody stops."""
-        workers = os.cpu_count() or 1
-        halt = np.zeros(1, dtype=np.int64)
-        places = len(self.locations.xyz)
-        rooms = [
-            (make_room(places, self.elements, ENTRIES), make_many_room(places, self.elements, halt))
-            for _ in range(workers)
-        ]
-        batch = make_nodes(BATCH, self.elements)
-        children = make_nodes((BATCH, self.elements + 1), self.elements)
-        born = np.zeros(BATCH, dtype=np.int64)
-        found = np.zeros((BATCH, self.settings.top))
-        genes = np.zeros((BATCH, self.settings.top, self.elements, 2), dtype=np.int64)
 
-        def work(worker: int) -> None:
-            for first in parts:  # shared: each worker takes the next part
-                behind = min(first + PART, taken)
-                expand(
-                    *(self.locations, self.weights, self.goal_weights, batch, first, behind),
-                    *(upper, slack, children, born, found, genes, *rooms[worker]),
-                )
+        def asked_to_stop() -> bool:
+            return stop() or self._out_of_time()
 
         self._start()
-        with ThreadPoolExecutor(workers) as threads:
-            while not (stop() or self._out_of_time() or self._close_enough()):
+        with _Workers(self) as workers:
+            while not (asked_to_stop() or self._close_enough()):
                 upper, slack = self.upper, self.slack
-                taken, frontier = self._take_batch(batch, upper - slack)
+                taken, frontier = self._take_batch(workers.batch, upper - slack)
                 if taken == 0:
                     break
-                parts = _Shared(range(0, taken, PART))
-                running = [threads.submit(work, worker) for worker in range(workers)]
-                while wait(running, POLL_SECONDS).not_done:
-                    halt[0] = halt[0] or stop() or self._out_of_time()
-                for each in running:
-                    each.result()  # a failure in a worker voids the proof
+                workers.expand(taken, upper, slack, asked_to_stop)
                 for i in range(taken):
-                    self._take_all(found[i], genes[i], sum(self.counts[batch.choice[i]]), upper)
-                frontier.put(children, born[:taken], self.upper - self.slack)
+                    elements = sum(self.counts[workers.batch.choice[i]])
+                    self._take_all(workers.found[i], workers.genes[i], elements, upper)
+                frontier.put(workers.children, workers.born[:taken], self.upper - self.slack)
                 self.expanded += taken
                 self.batches += 1
                 if on_progress:
@@ -396,3 +360,78 @@ class _Search:
 def _rounded(value: float) -> float:
     """Round to nine significant digits, so that equal values sort by their grasps."""
     return float(f"{value:.9g}")
+
+
+class _Workers:
+    """Threads that expand a batch of nodes; what comes of each node depends on the node alone."""
+
+    def __init__(self, search: _Search) -> None:
+        self._search = search
+        places, elements, top = len(search.locations.xyz), search.elements, search.settings.top
+        cores = os.cpu_count() or 1
+        self.halt = np.zeros(1, dtype=np.int64)
+        self.rooms = [
+            (make_room(places, elements, ENTRIES), make_many_room(places, elements, self.halt))
+            for _ in range(cores)
+        ]
+        self.batch = make_nodes(BATCH, elements)
+        self.children = make_nodes((BATCH, elements + 1), elements)
+        self.born = np.zeros(BATCH, dtype=np.int64)
+        self.found = np.zeros((BATCH, top))
+        self.genes = np.zeros((BATCH, top, elements, 2), dtype=np.int64)
+        self._threads = ThreadPoolExecutor(cores)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._threads.shutdown()
+
+    def expand(
+        self, taken: int, upper: float, slack: float, asked_to_stop: Callable[[], bool]
+    ) -> None:
+        """Expand the first nodes of the batch; those not done when asked to stop stay as they are.
+
+        An error in a thread is raised here: it voids the proof.
+        """
+        parts = _Shared(range(0, taken, PART))
+
+        def work(room: Room, many: ManyRoom) -> None:
+            for first in parts:
+                expand(
+                    self._search.locations,
+                    self._search.weights,
+                    self._search.goal_weights,
+                    self.batch,
+                    first,
+                    min(first + PART, taken),
+                    upper,
+                    slack,
+                    self.children,
+                    self.born,
+                    self.found,
+                    self.genes,
+                    room,
+                    many,
+                )
+
+        running = [self._threads.submit(work, *rooms) for rooms in self.rooms]
+        while wait(running, POLL_SECONDS).not_done:
+            self.halt[0] = self.halt[0] or asked_to_stop()
+        for thread in running:
+            thread.result()
+
+
+class _Shared:
+    """An iterator that threads share: each value goes to one of them."""
+
+    def __init__(self, values: Iterable[int]) -> None:
+        self._values = iter(values)
+        self._lock = threading.Lock()
+
+    def __iter__(self) -> Iterator[int]:
+        return self
+
+    def __next__(self) -> int:
+        with self._lock:
+            return next(self._values)

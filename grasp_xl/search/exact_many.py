@@ -30,6 +30,7 @@ from grasp_xl.search.exact_leaf import keep
 from grasp_xl.search.exact_model import Locations
 from grasp_xl.search.exact_pairs import (
     GRID,
+    PAIRS,
     Listed,
     Pairs,
     fit_together,
@@ -82,8 +83,8 @@ class ManyRoom(NamedTuple):
     halt: IntArray
 
 
-def make_many_room(locations: int, elements: int, halt: IntArray) -> ManyRoom:
-    """Make the arrays for so many locations and elements of a grasp."""
+def make_many_room(locations: int, elements: int, halt: IntArray, pairs: int = PAIRS) -> ManyRoom:
+    """Make the arrays for so many locations, elements of a grasp, and pairs in the grids."""
     depths = elements + 1
     shares = 1 << max(0, min(elements, MANY_MAX) - 2)
     return ManyRoom(
@@ -93,7 +94,7 @@ def make_many_room(locations: int, elements: int, halt: IntArray) -> ManyRoom:
             np.empty(locations, dtype=np.int64),
             np.zeros(1, dtype=np.int64),
         ),
-        make_pairs(),
+        make_pairs(pairs),
         Chosen(
             np.empty(depths, dtype=np.int64),
             np.empty((depths, locations), dtype=np.int64),
@@ -152,9 +153,7 @@ def list_locations(
             out.place[slot] = out.place[slot - 1]
             slot -= 1
         out.price[slot] = value
-        out.fixed[slot] = (
-            loc.least_deviation[box] * w.deviation + branch(loc, t, box) * w.structure
-        )
+        out.fixed[slot] = loc.least_deviation[box] * w.deviation + branch(loc, t, box) * w.structure
         out.place[slot] = loc.run[box, 0]
         n += 1
         if n == most and not complete:
@@ -321,33 +320,52 @@ def try_all_pairs(
 ) -> int:
     """Try all pairs of what is left, where the grids cannot hold them; return how many."""
     n = w.cups + w.magnets
-    c, member = many.chosen, many.pairs.member[0]
+    c, listed = many.chosen, many.listed
     worst = len(found) - 1
     tried = 0
     for e in range(c.left_size[n - 2]):
         for f in range(e + 1, c.left_size[n - 2]):
             p, q = c.left[n - 2, e], c.left[n - 2, f]
             tried += 1
-            if c.price[n - 2] + many.listed.price[p] + many.listed.price[q] >= found[worst]:
+            if c.price[n - 2] + listed.price[p] + listed.price[q] >= found[worst]:
                 break
-            a, b = many.listed.place[p], many.listed.place[q]
-            fixed = c.fixed[n - 2] + many.listed.fixed[p] + many.listed.fixed[q]
-            if fixed >= found[worst] or not fit_together(loc, w, t, a, b):
-                continue
-            for code in range(4):
-                if loc.footprint[a, code >> 1] < 0 or loc.footprint[b, code & 1] < 0:
-                    continue
-                for axis in range(3):
-                    many.pairs.pull[0, axis] = pull_of(w, code >> 1) * loc.xyz[a, axis]
-                    many.pairs.pull[0, axis] += pull_of(w, code & 1) * loc.xyz[b, axis]
-                member[0], member[1], member[2] = p, q, code
-                for s in range(c.shares[n - 2]):
-                    tried += 1
-                    if c.magnets[n - 2, s] + (code >> 1) + (code & 1) != w.magnets:
-                        continue
-                    if fixed + w.moment * pulled(many, n - 2, s, 0) < found[worst]:
-                        try_pair(loc, w, t, s, member, found, genes, room, many)
+            fixed = c.fixed[n - 2] + listed.fixed[p] + listed.fixed[q]
+            if fixed < found[worst] and fit_together(loc, w, t, listed.place[p], listed.place[q]):
+                tried += 4 * c.shares[n - 2]
+                try_all_kinds(loc, w, t, p, q, fixed, found, genes, room, many)
     return tried
+
+
+@allocation_free
+def try_all_kinds(
+    loc: Locations,
+    w: Weights,
+    t: Truss,
+    p: int,
+    q: int,
+    fixed: float,
+    found: FloatArray,
+    genes: IntArray,
+    room: Room,
+    many: ManyRoom,
+) -> None:
+    """Try a pair with every share of the kinds; the first row of the grids serves as its own."""
+    n = w.cups + w.magnets
+    c, pull, member = many.chosen, many.pairs.pull, many.pairs.member[0]
+    a, b = many.listed.place[p], many.listed.place[q]
+    for code in range(4):
+        kind_a, kind_b = code >> 1, code & 1
+        if loc.footprint[a, kind_a] < 0 or loc.footprint[b, kind_b] < 0:
+            continue
+        for axis in range(3):
+            pull[0, axis] = pull_of(w, kind_a) * loc.xyz[a, axis]
+            pull[0, axis] += pull_of(w, kind_b) * loc.xyz[b, axis]
+        member[0], member[1], member[2] = p, q, code
+        for s in range(c.shares[n - 2]):
+            if c.magnets[n - 2, s] + kind_a + kind_b != w.magnets:
+                continue
+            if fixed + w.moment * pulled(many, n - 2, s, 0) < found[len(found) - 1]:
+                try_pair(loc, w, t, s, member, found, genes, room, many)
 
 
 # --- the search ---
@@ -371,6 +389,89 @@ def choose_ends(
         total += price(loc, w, no_truss(), boxes[i], u)[0]
         share_kinds(loc, w, place, i + 1, c)
     c.price[ENDS], c.fixed[ENDS] = total, fixed
+
+
+@allocation_free
+def list_all(
+    loc: Locations,
+    w: Weights,
+    t: Truss,
+    boxes: IntArray,
+    u: FloatArray,
+    upper: float,
+    most: int,
+    room: Room,
+    many: ManyRoom,
+) -> tuple[bool, bool]:
+    """Choose the ends, and list what may stand beside them and its pairs.
+
+    Returns whether all is listed (no more than ``most``), and whether the grids hold all pairs.
+    """
+    n = w.cups + w.magnets
+    c, listed = many.chosen, many.listed
+    choose_ends(loc, w, t, boxes, u, room, many)
+    c.left_size[ENDS] = 0
+    spare = upper - c.price[ENDS] - cheapest(loc, w, t, boxes[ENDS], ENDS, n, u, room)
+    if not spare > 0.0:  # nor where it is not a number
+        return True, True
+    below = spare + price(loc, w, t, room.pick[n - 1], u)[0]
+    complete = list_locations(loc, w, t, boxes[ENDS], u, below, most, room.tag, listed)
+    for rank in range(listed.size[0]):
+        c.left[ENDS, rank] = rank
+    c.left_size[ENDS] = listed.size[0]
+    below += price(loc, w, t, room.pick[n - 2], u)[0]
+    return complete, tabulate_pairs(loc, w, t, listed, below, many.pairs)
+
+
+@allocation_free
+def enter(
+    loc: Locations,
+    w: Weights,
+    t: Truss,
+    depth: int,
+    tabulated: bool,
+    found: FloatArray,
+    genes: IntArray,
+    room: Room,
+    many: ManyRoom,
+) -> int:
+    """Begin with what is left at a depth; where only a pair is wanted, try all; return the work."""
+    n = w.cups + w.magnets
+    c = many.chosen
+    work = c.left_size[depth] // 8
+    c.position[depth] = c.left_size[depth]  # nothing to choose
+    total = c.price[depth] + clique_prices(loc, w, depth, n - depth, room, many)
+    if total >= found[len(found) - 1]:
+        return work
+    if depth > ENDS:
+        share_kinds(loc, w, room.chosen[depth - 1], depth, c)
+    if depth < n - 2:
+        c.position[depth] = -1
+    elif tabulated:
+        work += look_up_pairs(loc, w, t, found, genes, room, many) // 16
+    else:
+        work += try_all_pairs(loc, w, t, found, genes, room, many) // 16
+    return work
+
+
+@allocation_free
+def choose_next(w: Weights, depth: int, upper: float, room: Room, many: ManyRoom) -> bool:
+    """Choose the next entry of what is left at a depth; False if there is none of use."""
+    c, listed = many.chosen, many.listed
+    wanted = w.cups + w.magnets - depth
+    c.position[depth] += 1
+    if c.position[depth] + wanted > c.left_size[depth]:
+        return False
+    rank = c.left[depth, c.position[depth]]
+    total = c.price[depth] + listed.price[rank]
+    for i in range(1, wanted):
+        total += max(listed.price[rank], c.least[depth, i])
+    if total >= upper:
+        return False
+    room.chosen[depth] = listed.place[rank]
+    c.price[depth + 1] = c.price[depth] + listed.price[rank]
+    c.fixed[depth + 1] = c.fixed[depth] + listed.fixed[rank]
+    return True
 
 
 @allocation_free
@@ -401,64 +502,23 @@ def enumerate_many(
         kinds.
     room, many : Room, ManyRoom
     """
-    n = w.cups + w.magnets
-    c, listed = many.chosen, many.listed
     worst = len(found) - 1
     t = truss_of(loc, w, boxes)
-    choose_ends(loc, w, t, boxes, u, room, many)
-    spare = found[worst] - c.price[ENDS] - cheapest(loc, w, t, boxes[ENDS], ENDS, n, u, room)
-    if not spare > 0.0:
-        return True
-    dearest = price(loc, w, t, room.pick[n - 1], u)[0]
-    below, most = spare + dearest, TRY_LISTED << tries
-    complete = list_locations(loc, w, t, boxes[ENDS], u, below, most, room.tag, listed)
-    dearest += price(loc, w, t, room.pick[n - 2], u)[0]
-    tabulated = tabulate_pairs(loc, w, t, listed, spare + dearest, many.pairs)
-    for rank in range(listed.size[0]):
-        c.left[ENDS, rank] = rank
-    c.left_size[ENDS] = listed.size[0]
+    most = TRY_LISTED << tries
+    complete, tabulated = list_all(loc, w, t, boxes, u, found[worst], most, room, many)
     budget = TRY << tries
     depth = ENDS
     enters = True
     while depth >= ENDS:
-        wanted = n - depth
         if enters:
-            enters = False
-            c.position[depth] = -1
-            budget -= c.left_size[depth] // 8
-            total = c.price[depth] + clique_prices(loc, w, depth, wanted, room, many)
-            if total >= found[worst]:
-                depth -= 1
-                continue
-            if depth > ENDS:
-                share_kinds(loc, w, room.chosen[depth - 1], depth, c)
-            if wanted == 2:
-                if tabulated:
-                    tried = look_up_pairs(loc, w, t, found, genes, room, many)
-                else:
-                    tried = try_all_pairs(loc, w, t, found, genes, room, many)
-                budget -= tried // 16
-                depth -= 1
-                continue
-        c.position[depth] += 1
-        entry = c.position[depth]
-        if entry + wanted > c.left_size[depth]:
-            depth -= 1
-            continue
-        rank = c.left[depth, entry]
-        total = c.price[depth] + listed.price[rank]
-        for i in range(1, wanted):
-            total += max(listed.price[rank], c.least[depth, i])
-        if total >= found[worst]:
+            budget -= enter(loc, w, t, depth, tabulated, found, genes, room, many)
+        enters = choose_next(w, depth, found[worst], room, many)
+        if not enters:
             depth -= 1
             continue
         budget -= 1
         if budget < 0 or many.halt[0]:
             return False
-        room.chosen[depth] = listed.place[rank]
-        c.price[depth + 1] = c.price[depth] + listed.price[rank]
-        c.fixed[depth + 1] = c.fixed[depth] + listed.fixed[rank]
         depth += 1
         narrow(loc, w, t, depth, many)
-        enters = True
     return complete

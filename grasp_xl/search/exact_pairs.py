@@ -52,14 +52,14 @@ class Pairs(NamedTuple):
     member: IntArray
 
 
-def make_pairs() -> Pairs:
-    """Make empty grids."""
+def make_pairs(most: int) -> Pairs:
+    """Make grids for so many pairs."""
     return Pairs(
         np.empty(4),
         np.empty(3 * GRID * GRID + 1, dtype=np.int64),
-        np.empty((PAIRS, 3)),
-        np.empty(PAIRS),
-        np.empty((PAIRS, 3), dtype=np.int64),
+        np.empty((most, 3)),
+        np.empty(most),
+        np.empty((most, 3), dtype=np.int64),
     )
 
 
@@ -108,27 +108,34 @@ def tabulate_pairs(
     start, cells = pairs.start, len(pairs.start) - 1
     for cell in range(cells + 1):
         start[cell] = 0
-    for filling in range(2):  # the pairs of each cell are counted, then put in
-        for p in range(listed.size[0]):
-            for q in range(p + 1, listed.size[0]):
-                if listed.price[p] + listed.price[q] >= below:
-                    break
-                if fit_together(loc, w, t, listed.place[p], listed.place[q]):
-                    put_pair(loc, w, listed, p, q, filling, pairs)
-        if filling == 0:
-            for cell in range(cells):
-                start[cell + 1] += start[cell]
-            if start[cells] > len(pairs.fixed):
-                return False
-    for cell in range(cells, 0, -1):  # filling moved each start behind its cell's pairs
+    put_pairs(loc, w, t, listed, below, False, pairs)
+    for cell in range(cells):
+        start[cell + 1] += start[cell]
+    if start[cells] > len(pairs.fixed):
+        return False
+    put_pairs(loc, w, t, listed, below, True, pairs)
+    for cell in range(cells, 0, -1):  # each start was moved behind its cell's pairs
         start[cell] = start[cell - 1]
     start[0] = 0
     return True
 
 
 @allocation_free
+def put_pairs(
+    loc: Locations, w: Weights, t: Truss, listed: Listed, below: float, filling: bool, pairs: Pairs
+) -> None:
+    """Count the pairs of each cell behind its start, or put them in and move the starts."""
+    for p in range(listed.size[0]):
+        for q in range(p + 1, listed.size[0]):
+            if listed.price[p] + listed.price[q] >= below:
+                break
+            if fit_together(loc, w, t, listed.place[p], listed.place[q]):
+                put_pair(loc, w, listed, p, q, filling, pairs)
+
+
+@allocation_free
 def put_pair(
-    loc: Locations, w: Weights, listed: Listed, p: int, q: int, filling: int, pairs: Pairs
+    loc: Locations, w: Weights, listed: Listed, p: int, q: int, filling: bool, pairs: Pairs
 ) -> None:
     """Count a pair, or put it into its cell, once for each choice of its kinds."""
     a, b = listed.place[p], listed.place[q]
@@ -140,7 +147,7 @@ def put_pair(
         x = pull_a * loc.xyz[a, 0] + pull_b * loc.xyz[b, 0]
         y = pull_a * loc.xyz[a, 1] + pull_b * loc.xyz[b, 1]
         cell = cell_of(pairs, kind_a + kind_b, x, y)
-        if filling == 0:
+        if not filling:
             pairs.start[cell + 1] += 1
             continue
         row = pairs.start[cell]
