@@ -15,10 +15,11 @@ from grasp_xl.chromosome import Chromosome, from_active, index_faults
 from grasp_xl.errors import InputError, Problem, UsageError
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Terms
-from grasp_xl.search.feasibility import any_feasible, max_fos
+from grasp_xl.search.feasibility import max_fos
 from grasp_xl.search.floors import floors, search_space
 from grasp_xl.search.genetic import OnProgress, search
 from grasp_xl.search.mutation import random_chromosome
+from grasp_xl.search.obstacles import any_feasible
 from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import Generations, StopRule
 from grasp_xl.space import OptionSpace

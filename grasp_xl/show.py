@@ -17,7 +17,7 @@ from rich.table import Table
 from grasp_xl.compiled import is_compiled
 from grasp_xl.errors import Problem
 from grasp_xl.grasp import Grasp
-from grasp_xl.rules import TERMS, Rules
+from grasp_xl.rules import TERMS, UNITS, Rules
 from grasp_xl.search.stop import Progress
 
 if TYPE_CHECKING:
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from grasp_xl.search.result import Result
     from grasp_xl.task import Task
 
-UNITS = {"cost": "$", "moment": "N-mm", "deviation": "mm", "structure": "mm"}
 REFRESH_SECONDS = 0.2
 
 
