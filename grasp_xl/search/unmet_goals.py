@@ -62,13 +62,13 @@ def why_none_meets_all(
     """
     below = below_floor(rules.goals, floors)
     causes = [
-        f"the {term} goal of {_told(term, getattr(rules.goals.base, term))} is below the floor "
+        f"the {term} goal of {_told(term, getattr(rules.goals.base, term))} is below its floor "
         f"of {_floor(term, floors)}{_arm(term, rules.requirements)}"
         for term in below
     ]
-    cause = " and ".join(causes) or "no goal is below its floor, but together they are too low"
+    cause = ", ".join(causes) or "no goal is below its floor, but together they are too low"
     if len(below) > 1:
-        told = f"Raise the goals of {' and '.join(below)}"
+        told = f"Raise the goals of {', '.join(below)}"
     else:
         movable = below or [term for term in TERMS if term not in rules.goals.dropped]
         changes = _single_changes(space, rules, movable, min_elements, stop)
