@@ -156,7 +156,7 @@ def proof_progress(*, quiet: bool) -> Iterator[ProofLine]:
 
 def percent(best: float, bound: float) -> str:
     """Return the gap of a best value above a bound, in percent of the value."""
-    return f"{100 * (best - bound) / best if best > 0 else 0.0:.2g} %"
+    return f"{100 * (best - bound) / best if best > 0 else 0.0:.3g} %"
 
 
 def grasps(columns: Sequence[tuple[str, Grasp]], rules: Rules) -> None:

@@ -86,8 +86,12 @@ def proven_floors(
     deadline = time.perf_counter() + seconds
     found = []
     for searches, term in zip(range(len(TERMS), 0, -1), TERMS, strict=True):
+        left = deadline - time.perf_counter()
+        if left <= 0 or stop():
+            found.append(getattr(least, term))
+            continue
         alone = replace(rules, criterion=Criterion(frozenset({term})))
-        settings = ExactSettings(time_limit_s=(deadline - time.perf_counter()) / searches)
+        settings = ExactSettings(time_limit_s=left / searches)
         proof = solve(space, alone, settings, known=known, stop=stop)
         proved = proof.status == "optimal"
         found.append(proof.bound if proved else max(proof.bound, getattr(least, term)))
