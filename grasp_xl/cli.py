@@ -249,7 +249,7 @@ Seconds = Annotated[
 ]
 DesignCount = Annotated[
     int,
-    _option("--top", _whole("--top", 1, MOST_DESIGNS), "K", "List the K best grasps (default 1)."),
+    _option("--top", _whole("--top", 1, MOST_DESIGNS), "K", "List the K best grasps."),
 ]
 Gap = Annotated[
     float,
@@ -257,7 +257,7 @@ Gap = Annotated[
         "--gap",
         _number("--gap", f"a number from 0 to {MOST:g}", least=0),
         "NUMBER",
-        "Stop within this fraction of the best value (default 0: prove it).",
+        "Stop within this fraction of the best value; 0 proves it.",
     ),
 ]
 MeetGoals = Annotated[bool, typer.Option("--meet-goals", help="Only grasps that meet all goals.")]
@@ -267,7 +267,7 @@ LeastElements = Annotated[
         "--min-elements",
         _whole("--min-elements", 1),
         "N",
-        "Only grasps of N or more elements (default 1).",
+        "Only grasps of N or more elements.",
     ),
 ]
 GoOn = Annotated[
