@@ -12,15 +12,20 @@ from pathlib import Path
 import numpy as np
 
 from grasp_xl.chromosome import Chromosome, from_active, index_faults
-from grasp_xl.errors import InputError, Problem, UsageError
+from grasp_xl.errors import InfeasibleError, InputError, Problem, UsageError
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Terms
-from grasp_xl.search.feasibility import any_feasible, max_fos
-from grasp_xl.search.floors import floors, search_space
+from grasp_xl.search.exact import ExactSettings, OnBound, Proof
+from grasp_xl.search.exact import solve as prove
+from grasp_xl.search.feasibility import max_fos
+from grasp_xl.search.floors import floors, proven_floors, search_space
 from grasp_xl.search.genetic import OnProgress, search
 from grasp_xl.search.mutation import random_chromosome
+from grasp_xl.search.obstacles import any_feasible
 from grasp_xl.search.result import Result, State
-from grasp_xl.search.stop import Generations, StopRule
+from grasp_xl.search.stop import Generations, Interrupt, StopRule
+from grasp_xl.search.unmet_goals import floor_warnings, why_none_meets_all
+from grasp_xl.search.warm import load_exact_search
 from grasp_xl.space import OptionSpace
 from grasp_xl.task import Parameters, Task, settle
 from grasp_xl.workbook import layout
@@ -39,6 +44,9 @@ from grasp_xl.workbook.saving import (
     save,
 )
 from grasp_xl.workbook.writing import Filled, export_workbook, full_workbook
+
+FLOOR_SECONDS = 5.0
+"""Longest search of ``solve`` for the floors, after the search for the best grasp."""
 
 Active = Sequence[Sequence[int] | None]
 """Indices of a grasp given by options, a list a kind; None where an option was not given."""
@@ -75,6 +83,33 @@ class Checked:
     search_space: int
     max_fos: float
     floors: Terms
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Solved:
+    """What ``solve`` found and proved.
+
+    Parameters
+    ----------
+    task : Task
+    settings : ExactSettings
+    proof : Proof
+    floors : Terms or None
+        Least value of each criterion alone, as far as proved; None where no grasp is possible.
+    seconds : float
+        All that it took, with reading and floors.
+    interrupted : bool
+    obstacle : InfeasibleError or None
+        Why there is no grasp, where that is proved.
+    """
+
+    task: Task
+    settings: ExactSettings
+    proof: Proof
+    floors: Terms | None
+    seconds: float
+    interrupted: bool
+    obstacle: InfeasibleError | None = None
 
 
 def prepare(book: Book, options: Parameters, grasp: Active = (None, None)) -> Task:
@@ -138,8 +173,13 @@ def check(path: Path, options: Parameters) -> Checked:
     """
     task = prepare(read_book(path), options)
     refuse_infeasible(task)
-    space, need = task.space, task.rules.requirements
-    return Checked(space, task.warnings, search_space(space), max_fos(space), floors(space, need))
+    space, least = task.space, floors(task.space, task.rules.requirements)
+    task = _with_floor_warnings(task, least)
+    return Checked(space, task.warnings, search_space(space), max_fos(space), least)
+
+
+def _with_floor_warnings(task: Task, least: Terms) -> Task:
+    return replace(task, warnings=(*task.warnings, *floor_warnings(task.rules, least)))
 
 
 def evaluate_grasp(path: Path, options: Parameters, grasp: Active) -> tuple[Task, Grasp]:
@@ -258,6 +298,7 @@ def run(
     task = prepare(book, options, grasp)
     saved = _saved_run(book, task) if go_on else None
     refuse_infeasible(task)
+    task = _with_floor_warnings(task, floors(task.space, task.rules.requirements))
     if output.in_place:
         _refuse_losses(output, book)
     result = search(
@@ -280,6 +321,67 @@ def run(
 def _saved_run(book: Book, task: Task) -> SavedRun:
     refuse_other_inputs(book.source, task)
     return book.saved_run()
+
+
+# --- solve ---
+
+
+def solve(
+    path: Path,
+    options: Parameters,
+    settings: ExactSettings,
+    *,
+    interrupt: Interrupt | None = None,
+    on_progress: OnBound | None = None,
+) -> Solved:
+    """Find the best grasps of a file, with proof, and the floors of its criteria.
+
+    Parameters
+    ----------
+    path, options
+    settings : ExactSettings
+        The time limit is that of the search and of the floors together.
+    interrupt : Interrupt, optional
+        Once asked, it ends all searches with what is proved by then.
+    on_progress : callable, optional
+
+    Raises
+    ------
+    InfeasibleError
+        If no grasp can serve as the benchmark.
+    """
+    clock = time.perf_counter()
+    ask = interrupt or Interrupt()
+    task = prepare(read_book(path), options)
+    space, rules = task.space, task.rules
+    known = [task.benchmark.chromosome] if task.benchmark.feasible else []
+    load_exact_search()
+
+    def stop() -> bool:
+        return ask.asked
+
+    began = time.perf_counter()
+    proof = prove(space, rules, settings, known=known, stop=stop, on_progress=on_progress)
+    obstacle = _obstacle(task, settings) if proof.status == "infeasible" else None
+    least = None
+    if obstacle is None:
+        left = settings.time_limit_s - (time.perf_counter() - began)
+        known += [grasp.chromosome for grasp in proof.designs]
+        seconds = min(FLOOR_SECONDS, left)
+        least = proven_floors(space, rules, seconds=seconds, known=known, stop=stop)
+        task = _with_floor_warnings(task, least)
+        if proof.status == "infeasible":
+            obstacle = why_none_meets_all(space, rules, least, settings.min_elements, stop)
+    return Solved(task, settings, proof, least, time.perf_counter() - clock, ask.asked, obstacle)
+
+
+def _obstacle(task: Task, settings: ExactSettings) -> InfeasibleError | None:
+    """Return why no grasp meets the constraints; None where only the goals are in the way."""
+    try:
+        any_feasible(task.space, task.rules.requirements, settings.min_elements)
+    except InfeasibleError as error:
+        return error
+    return None
 
 
 # --- writing ---

@@ -60,6 +60,6 @@ def _compiled(function: Callable[P, R], **options: bool) -> Callable[P, R]:
     return cast("Callable[P, R]", kernel)
 
 
-def is_compiled() -> bool:
-    """Tell whether compiled code of these sources is kept on this machine."""
-    return any(Path(CACHE_FOLDER).rglob("*.nbc"))
+def is_compiled(module: str = "") -> bool:
+    """Tell whether compiled code of modules whose names begin so is kept on this machine."""
+    return any(Path(CACHE_FOLDER).rglob(f"{module}*.nbc"))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from grasp_xl.errors import GraspError, InputError, Problem
+from grasp_xl.errors import GraspError, InfeasibleError, InputError, Problem
 from grasp_xl.rules import TERMS, Rules
 
 if TYPE_CHECKING:
-    from grasp_xl.commands import Checked
+    from grasp_xl.commands import Checked, Solved
     from grasp_xl.grasp import Grasp
     from grasp_xl.search.result import Result
     from grasp_xl.task import Task
@@ -61,6 +62,32 @@ def run_json(result: Result, seconds: float, output: str) -> Json:
         "seed": result.settings.seed,
         "stop_reason": result.stop_reason,
         "output": output,
+    }
+
+
+def solve_json(solved: Solved) -> Json:
+    """Return the outcome of an exact search, and why there is no grasp where there is none."""
+    proof, rules = solved.proof, solved.task.rules
+    return {
+        "status": proof.status,
+        "bound": proof.bound if math.isfinite(proof.bound) else None,
+        "gap": proof.gap,
+        "designs": [grasp_json(grasp, rules) for grasp in proof.designs],
+        "floors": solved.floors._asdict() if solved.floors else None,
+        "goals": goals_json(rules),
+        "seconds": solved.seconds,
+        "output": None,
+        **(error_json(solved.obstacle) if solved.obstacle else {}),
+    }
+
+
+def failed_solve_json(error: InfeasibleError) -> Json:
+    """Return what ``solve`` says where no grasp can serve as the benchmark."""
+    return {
+        "status": "infeasible" if error.proved else "unknown",
+        "designs": [],
+        **dict.fromkeys(("bound", "gap", "floors", "goals", "seconds", "output")),
+        **error_json(error),
     }
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
+import io
 import json
 import os
 import shutil
@@ -19,12 +21,12 @@ import typer
 from bad_workbooks import tiny_export
 from python_calamine import CalamineWorkbook
 
-from grasp_xl import __version__, cli, commands
+from grasp_xl import __version__, cli, commands, show
 from grasp_xl.search import stop
 from grasp_xl.workbook import cells, reading_ga
 
 SAMPLES = Path(__file__).parents[1] / "workbooks"
-COMMANDS = ("check", "new", "evaluate", "run")
+COMMANDS = ("check", "new", "evaluate", "run", "solve")
 GRASP_KEYS = {
     *("suction", "magnets", "genes", "force_n", "weight_n", "fos", "cost", "moment", "deviation"),
     *("structure", "divergence", "clearance", "centre_of_force", "normalised", "feasible"),
@@ -34,6 +36,7 @@ RUN_KEYS = {
     *("best", "proved", "benchmark", "goals", "seconds", "generations", "evaluations", "seed"),
     *("stop_reason", "output"),
 }
+SOLVE_KEYS = {"status", "bound", "gap", "designs", "floors", "goals", "seconds", "output"}
 CHECK_KEYS = {
     *("ok", "problems", "warnings", "cups", "magnets", "search_space", "weight_n", "max_fos"),
     "floors",
@@ -179,6 +182,22 @@ def test_json_of_check_has_the_keys_of_the_specification(gx: Any, export: Path) 
     assert (told.json["cups"], told.json["magnets"]) == (6, 6)
 
 
+def test_json_of_solve_has_the_keys_of_the_specification(gx: Any, bracket: Path) -> None:
+    told = gx("solve", bracket, "--top", 3, "--json")
+    assert told.code == 0
+    assert set(told.json) == SOLVE_KEYS
+    assert (told.json["status"], told.json["gap"], told.json["output"]) == ("optimal", 0, None)
+    values = [design["value"] for design in told.json["designs"]]
+    assert len(values) == 3
+    assert values == sorted(values)
+    assert told.json["bound"] == values[0]
+    assert all(set(design) == GRASP_KEYS for design in told.json["designs"])
+    assert set(told.json["goals"]) == FIVE
+    for term, floor in told.json["floors"].items():
+        assert floor <= told.json["designs"][0][term] * (1 + 1e-9)
+    assert files(bracket.parent) == [bracket.name]
+
+
 def test_check_lists_every_problem(gx: Any, tmp_path: Path) -> None:
     export = tmp_path / "wrong.xlsx"
     tiny_export(export, {"B5": -1, "D6": "here", "L1": 2})
@@ -232,6 +251,11 @@ WRONG = [
     *(f"evaluate FILE --magnets 1 --cups {word}" for word in ("0", "7", "-1", "1,1", "1,2,")),
     *(f"evaluate FILE --magnets 1 --cups {word}" for word in ("a", "1.5", "1,2,3,4,5,6", "9" * 30)),
     "evaluate FILE --cups 1",
+    *(f"solve FILE --top {word}" for word in ("0", "1001", "1.5")),
+    *(f"solve FILE --gap {word}" for word in ("-1", "nan", "inf")),
+    *(f"solve FILE --min-elements {word}" for word in ("0", "two")),
+    "solve FILE --time-limit -1",
+    "solve FILE -o OTHER",
 ]
 
 
@@ -270,7 +294,7 @@ def test_bad_input_is_exit_code_3_and_writes_nothing(
 
 def test_what_no_grasp_can_meet_is_exit_code_4_at_once(gx: Any, bracket: Path) -> None:
     """Also where a user-defined grasp is there to start from."""
-    for command in ("check", "run"):
+    for command in ("check", "run", "solve"):
         for option, value in (("--fos", "8"), ("--clearance", "500")):
             told = gx(command, bracket, option, value, "--json")
             assert told.code == 4
@@ -496,6 +520,95 @@ def test_ctrl_c_writes_the_best_so_far(bracket: Path) -> None:
     assert told["best"]["divergence"] < 4
     assert "interrupted" in named(Path(told["output"]), "StopReason")[0].lower()
     assert files(bracket.parent) == ["bracket-result.xlsx", "bracket.xlsx"]
+
+
+# --- solve ---
+
+
+def test_solve_shows_designs_goals_floors_and_what_is_proved(gx: Any, bracket: Path) -> None:
+    told = gx("solve", bracket, "--top", 2)
+    assert told.code == 0
+    first = [line.split()[:1] for line in told.out.splitlines()]
+    assert [word for word in (["1"], ["2"], ["goal"], ["floor"]) if word in first] == [
+        *(["1"], ["2"], ["goal"], ["floor"])
+    ]
+    assert "Proved: these are the 2 best grasps, and no grasp has a divergence below" in told.out
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ("--criterion cost", "no grasp has a cost below 90 $"),
+        ("--min-elements 5", "no grasp of 5 or more elements has a divergence below"),
+        ("--goals 200,9000,90,2000 --meet-goals", "no grasp that meets all goals has a divergence"),
+        ("--time-limit 0", "stopped at the time limit"),
+        ("--gap 100", "stopped at the gap asked for"),
+    ],
+)
+def test_solve_says_in_a_sentence_what_is_proved(
+    gx: Any, bracket: Path, words: str, sentence: str
+) -> None:
+    told = gx("solve", bracket, *words.split())
+    assert told.code == 0
+    assert sentence in told.out
+
+
+def test_solve_never_finds_worse_than_run(gx: Any, export: Path) -> None:
+    best = gx("run", export, "--generations", 3000, "--json").json["best"]["value"]
+    told = gx("solve", export, "--json").json
+    assert told["status"] == "optimal"
+    assert told["designs"][0]["value"] <= best * (1 + 1e-9)
+
+
+def test_solve_knows_what_goals_no_grasp_meets(gx: Any, bracket: Path) -> None:
+    """It names the goal below its floor; raised as the hint says, there is a grasp."""
+    told = gx("solve", bracket, "--goals", "110,5000,30,1000", "--meet-goals", "--json")
+    assert told.code == 4
+    assert told.json["status"] == "infeasible"
+    assert "the moment goal of 5,000 N-mm is below its floor of 5,121.63 N-mm" in told.json["error"]
+    assert "moment goal: found 5,000 N-mm" in told.err
+    raised = told.json["hint"].split()[5].replace(",", "")
+    told = gx("solve", bracket, "--goals", f"110,{raised},30,1000", "--meet-goals", "--json")
+    assert (told.code, told.json["status"]) == (0, "optimal")
+    assert told.json["designs"][0]["meets_all_goals"]
+
+
+@pytest.mark.parametrize("command", ["check", "solve", "run"])
+def test_a_goal_below_its_floor_is_named(gx: Any, bracket: Path, command: str) -> None:
+    """With the plan arm the same goal is none too low."""
+    words = (command, bracket, "--goals", "100,5000,30,1000", "--json")
+    words += ("--generations", "5") if command == "run" else ()
+    assert "have a moment below 5,121.63 N-mm with the 3d arm; raise the goal" in gx(*words).err
+    assert "moment goal" not in gx(*words, "--moment-arm", "plan").err
+
+
+def test_ctrl_c_leaves_a_true_bound(
+    gx: Any, bracket: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Interrupted as soon as it begins, solve still shows the benchmark and a bound below all."""
+    best = gx("solve", bracket, "--json").json["bound"]
+
+    @contextlib.contextmanager
+    def interrupted() -> Any:
+        yield stop.Interrupt(asked=True)
+
+    monkeypatch.setattr(stop, "stop_on_ctrl_c", interrupted)
+    told = gx("solve", bracket, "--json")
+    assert told.code == 130
+    assert told.json["status"] == "feasible"
+    assert told.json["bound"] <= best <= told.json["designs"][0]["value"]
+    assert "interrupted" in gx("solve", bracket).out
+
+
+def test_a_terminal_shows_how_far_the_proof_is(
+    gx: Any, bracket: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    screen = io.StringIO()
+    monkeypatch.setattr(show, "_err", show.Terminal(file=screen, force_terminal=True))
+    monkeypatch.setattr(show, "REFRESH_SECONDS", 0.0)
+    assert gx("solve", bracket).code == 0
+    for word in ("none below", "best", "gap", " s"):
+        assert word in screen.getvalue()
 
 
 # --- the same again ---

@@ -11,6 +11,7 @@ import numpy as np
 from grasp_xl.errors import InputError, Problem
 from grasp_xl.polygon import contains, is_star_shaped
 from grasp_xl.space import (
+    MAX_COUNT,
     ElementKind,
     FloatArray,
     OptionSpace,
@@ -35,9 +36,6 @@ from grasp_xl.workbook.package import read_package
 
 MAX_FOOTPRINTS = 200_000
 """Footprints of one kind that are read."""
-
-MAX_COUNT = 25
-"""Largest # Max. of a kind; the helper cells of a live card grow with its square."""
 
 MAX_VERTICES = 10_000
 """Vertices of the polygon that are read."""
