@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grasp_xl.compiled import allocation_free, compiled
+from grasp_xl.compiled import compiled, inner
 from grasp_xl.kernels import RecordArray
 from grasp_xl.search.exact_bound import (
     MULTIPLIERS,
@@ -74,13 +74,13 @@ def make_nodes(shape: int | tuple[int, ...], elements: int) -> Nodes:
 # --- open nodes, best first ---
 
 
-@allocation_free
+@inner
 def comes_first(key: FloatArray, age: IntArray, p: int, q: int) -> bool:
     """Tell whether node p is expanded before q: the lower key, then the newer one."""
     return key[p] < key[q] or (key[p] == key[q] and age[p] > age[q])
 
 
-@allocation_free
+@inner
 def sift_up(order: IntArray, size: int, key: FloatArray, age: IntArray) -> None:
     """Move the last of ``size`` nodes to its place in the heap ``order``."""
     i = size - 1
@@ -91,7 +91,7 @@ def sift_up(order: IntArray, size: int, key: FloatArray, age: IntArray) -> None:
     order[i] = row
 
 
-@allocation_free
+@inner
 def take_first(order: IntArray, size: int, key: FloatArray, age: IntArray) -> int:
     """Take the first node off the heap of ``size`` nodes; its slot goes behind the others."""
     first, row = order[0], order[size - 1]
@@ -173,14 +173,14 @@ def put_children(
 # --- splitting ---
 
 
-@allocation_free
+@inner
 def width(loc: Locations, box: int) -> float:
     """Return the larger side of a box (mm); -1 for a single location."""
     c = loc.corners[box]
     return -1.0 if loc.child[box, 0] < 0 else max(c[2] - c[0], c[3] - c[1])
 
 
-@allocation_free
+@inner
 def to_split(loc: Locations, w: Weights, boxes: IntArray, n: int) -> int:
     """Return which box to split: the wider end of the truss, then the widest cell; -1 if none."""
     widest, at = -1.0, -1
@@ -192,7 +192,7 @@ def to_split(loc: Locations, w: Weights, boxes: IntArray, n: int) -> int:
     return at
 
 
-@allocation_free
+@inner
 def tighten(loc: Locations, t: Truss, box: int) -> int:
     """Return the smallest box that holds all locations of a cell that are not barred."""
     while loc.child[box, 0] >= 0:
@@ -313,7 +313,7 @@ def keep_node(
     children.tries[i, 0] = tries
 
 
-@allocation_free
+@inner
 def is_small(loc: Locations, w: Weights, boxes: IntArray, n: int, at: int) -> bool:
     """Tell whether it is worth trying to enumerate a node."""
     if w.trussed:

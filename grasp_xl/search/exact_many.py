@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grasp_xl.compiled import allocation_free
+from grasp_xl.compiled import inner
 from grasp_xl.search.exact_bound import (
     Room,
     Truss,
@@ -114,7 +114,7 @@ def make_many_room(locations: int, elements: int, halt: IntArray, pairs: int = P
 # --- what is left at each depth ---
 
 
-@allocation_free
+@inner
 def list_locations(
     loc: Locations,
     w: Weights,
@@ -162,7 +162,7 @@ def list_locations(
     return complete
 
 
-@allocation_free
+@inner
 def narrow(loc: Locations, w: Weights, t: Truss, depth: int, room: ManyRoom) -> None:
     """List for this depth what is left behind the element that was chosen last."""
     c, place = room.chosen, room.listed.place
@@ -177,7 +177,7 @@ def narrow(loc: Locations, w: Weights, t: Truss, depth: int, room: ManyRoom) -> 
     c.left_size[depth] = n
 
 
-@allocation_free
+@inner
 def clique_prices(
     loc: Locations, w: Weights, depth: int, wanted: int, room: Room, many: ManyRoom
 ) -> float:
@@ -195,7 +195,7 @@ def clique_prices(
     return np.inf
 
 
-@allocation_free
+@inner
 def two_least(depth: int, room: ManyRoom) -> float:
     """Return the sum of the two least prices without the moment of what is left."""
     c = room.chosen
@@ -208,7 +208,7 @@ def two_least(depth: int, room: ManyRoom) -> float:
     return total
 
 
-@allocation_free
+@inner
 def share_kinds(loc: Locations, w: Weights, place: int, depth: int, c: Chosen) -> None:
     """List every share of the kinds among the elements before this depth, the last at ``place``."""
     last = depth - 1
@@ -230,7 +230,7 @@ def share_kinds(loc: Locations, w: Weights, place: int, depth: int, c: Chosen) -
 # --- the last two elements ---
 
 
-@allocation_free
+@inner
 def look_up_pairs(
     loc: Locations,
     w: Weights,
@@ -273,7 +273,7 @@ def look_up_pairs(
     return tried
 
 
-@allocation_free
+@inner
 def pulled(room: ManyRoom, depth: int, share: int, pair: int) -> float:
     """Return the arm of the chosen elements with a pair (mm)."""
     x = room.chosen.pull[depth, share, 0] + room.pairs.pull[pair, 0]
@@ -282,7 +282,7 @@ def pulled(room: ManyRoom, depth: int, share: int, pair: int) -> float:
     return float(np.sqrt(x * x + y * y + z * z))
 
 
-@allocation_free
+@inner
 def try_pair(
     loc: Locations,
     w: Weights,
@@ -308,7 +308,7 @@ def try_pair(
     keep(loc, w, n, found, genes, room)
 
 
-@allocation_free
+@inner
 def try_all_pairs(
     loc: Locations,
     w: Weights,
@@ -336,7 +336,7 @@ def try_all_pairs(
     return tried
 
 
-@allocation_free
+@inner
 def try_all_kinds(
     loc: Locations,
     w: Weights,
@@ -371,7 +371,7 @@ def try_all_kinds(
 # --- the search ---
 
 
-@allocation_free
+@inner
 def choose_ends(
     loc: Locations, w: Weights, t: Truss, boxes: IntArray, u: FloatArray, room: Room, many: ManyRoom
 ) -> None:
@@ -391,7 +391,7 @@ def choose_ends(
     c.price[ENDS], c.fixed[ENDS] = total, fixed
 
 
-@allocation_free
+@inner
 def list_all(
     loc: Locations,
     w: Weights,
@@ -423,7 +423,7 @@ def list_all(
     return complete, tabulate_pairs(loc, w, t, listed, below, many.pairs)
 
 
-@allocation_free
+@inner
 def enter(
     loc: Locations,
     w: Weights,
@@ -454,7 +454,7 @@ def enter(
     return work
 
 
-@allocation_free
+@inner
 def choose_next(w: Weights, depth: int, upper: float, room: Room, many: ManyRoom) -> bool:
     """Choose the next entry of what is left at a depth; False if there is none of use."""
     c, listed = many.chosen, many.listed
@@ -474,7 +474,7 @@ def choose_next(w: Weights, depth: int, upper: float, room: Room, many: ManyRoom
     return True
 
 
-@allocation_free
+@inner
 def enumerate_many(
     loc: Locations,
     w: Weights,

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grasp_xl.compiled import allocation_free
+from grasp_xl.compiled import inner
 from grasp_xl.search.exact_bound import Truss, Weights, squared_distance
 from grasp_xl.search.exact_model import MAGNETS, Locations
 from grasp_xl.space import FloatArray, IntArray
@@ -63,21 +63,21 @@ def make_pairs(most: int) -> Pairs:
     )
 
 
-@allocation_free
+@inner
 def fit_together(loc: Locations, w: Weights, t: Truss, p: int, q: int) -> bool:
     """Tell whether two locations keep the clearance, and are no farther apart than the truss."""
     squared = squared_distance(loc, p, q)
     return w.clearance * w.clearance <= squared <= t.reach
 
 
-@allocation_free
+@inner
 def pull_of(w: Weights, kind: int) -> float:
     """Return an element's share of the lifting force."""
     pull: float = w.magnet_pull if kind == MAGNETS else w.cup_pull
     return pull
 
 
-@allocation_free
+@inner
 def lay_frame(loc: Locations, w: Weights, listed: Listed, pairs: Pairs) -> None:
     """Lay the grid over all that two of the listed locations can pull."""
     least, most = min(w.cup_pull, w.magnet_pull), max(w.cup_pull, w.magnet_pull)
@@ -91,7 +91,7 @@ def lay_frame(loc: Locations, w: Weights, listed: Listed, pairs: Pairs) -> None:
         pairs.frame[2 + axis] = GRID / max(high - low, 1e-9)
 
 
-@allocation_free
+@inner
 def cell_of(pairs: Pairs, magnets: int, x: float, y: float) -> int:
     """Return the cell of a pair with so many magnets that pulls to x, y."""
     i = int(min(max((x - pairs.frame[0]) * pairs.frame[2], 0.0), GRID - 1.0))
@@ -99,7 +99,7 @@ def cell_of(pairs: Pairs, magnets: int, x: float, y: float) -> int:
     return (magnets * GRID + j) * GRID + i
 
 
-@allocation_free
+@inner
 def tabulate_pairs(
     loc: Locations, w: Weights, t: Truss, listed: Listed, below: float, pairs: Pairs
 ) -> bool:
@@ -120,7 +120,7 @@ def tabulate_pairs(
     return True
 
 
-@allocation_free
+@inner
 def put_pairs(
     loc: Locations, w: Weights, t: Truss, listed: Listed, below: float, filling: bool, pairs: Pairs
 ) -> None:
@@ -133,7 +133,7 @@ def put_pairs(
                 put_pair(loc, w, listed, p, q, filling, pairs)
 
 
-@allocation_free
+@inner
 def put_pair(
     loc: Locations, w: Weights, listed: Listed, p: int, q: int, filling: bool, pairs: Pairs
 ) -> None:
