@@ -33,6 +33,7 @@ from grasp_xl.search.exact_leaf import ENTRIES
 from grasp_xl.search.exact_many import ManyRoom, make_many_room
 from grasp_xl.search.exact_model import locate, weigh, weigh_goals
 from grasp_xl.search.feasibility import lifting_counts
+from grasp_xl.search.symmetry import representative, symmetries
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
 
 Status = Literal["optimal", "feasible", "infeasible", "unknown"]
@@ -70,7 +71,7 @@ class ExactSettings:
     gap : float
         Relative gap at which the search may stop.
     top : int
-        Number of best grasps wanted, >= 1.
+        Number of best grasps wanted, >= 1; images of one another count once.
     meet_goals : bool
         Only grasps whose every normalised value is at most 1.
     min_elements : int
@@ -220,6 +221,7 @@ class _Search:
         self.space, self.rules, self.settings = space, rules, settings
         self.began = time.perf_counter()
         self.pool: list[Found] = []
+        self.symmetries = symmetries(space) if settings.top > 1 else ()
         self.expanded = self.batches = 0
         self.counts = [
             counts
@@ -261,12 +263,15 @@ class _Search:
         return PROOF * abs(self.upper) if self.upper < math.inf else 0.0
 
     def _take(self, found: Found) -> None:
-        """Enter a grasp: values within 1e-9 are equal, and then the smaller indices come first."""
-        if any(other.active == found.active for other in self.pool):
-            return
-        self.pool.append(found)
-        self.pool.sort(key=lambda item: (_rounded(item.value), item.active))
-        del self.pool[self.settings.top :]
+        """Enter a grasp: values within 1e-9 are equal, and then the smaller indices come first.
+
+        Of grasps that are images of one another only the first is kept.
+        """
+        rising = sorted([*self.pool, found], key=lambda item: (_rounded(item.value), item.active))
+        firsts: dict[tuple[tuple[int, ...], ...], Found] = {}
+        for item in rising:
+            firsts.setdefault(representative(self.symmetries, item.active), item)
+        self.pool = list(firsts.values())[: self.settings.top]
 
     # --- the search ---
 
@@ -367,7 +372,8 @@ class _Workers:
 
     def __init__(self, search: _Search) -> None:
         self._search = search
-        places, elements, top = len(search.locations.xyz), search.elements, search.settings.top
+        places, elements = len(search.locations.xyz), search.elements
+        top = search.settings.top * (1 + len(search.symmetries))
         cores = os.cpu_count() or 1
         self.halt = np.zeros(1, dtype=np.int64)
         self.rooms = [
