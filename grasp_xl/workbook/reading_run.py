@@ -26,6 +26,9 @@ DESIGNS_LISTED = "Valid designs listed"
 CHANGES_LISTED = "Changes listed in the history"
 """Labels of the run log."""
 
+GENERATION = "Generation"
+"""Header of the lists' column that says when."""
+
 UNREADABLE = (ValueError, TypeError, IndexError, KeyError, OverflowError, RecursionError)
 """What reading a run raises where somebody changed it."""
 
@@ -243,10 +246,11 @@ def _trace(source: Source, space: OptionSpace, sheet: str, header_row: int, list
     header = [str(value) for value in grid.rows[header_row]]
     names = {labels.kind: labels.row_label for labels in layout.KINDS}
     columns = [header.index(names.get(name, name)) for name in gene_columns(space)]
+    when = header.index(GENERATION)
     generations, genes = [], []
     for row in range(header_row + 1, header_row + 1 + _whole(listed)):
-        if grid.at(row, 0) is not None:
-            generations.append(_whole(grid.at(row, 0)))
+        if grid.at(row, when) is not None:
+            generations.append(_whole(grid.at(row, when)))
             genes.append([_gene(grid.at(row, column)) for column in columns])
     shape = (len(genes), len(space.kinds), 1 + space.gene_slots)
     chromosomes = np.array(genes, dtype=np.int64).reshape(shape)
