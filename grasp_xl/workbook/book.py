@@ -24,6 +24,7 @@ from grasp_xl.workbook.reading_ga import (
     read_chromosome,
     read_parameters,
 )
+from grasp_xl.workbook.reading_pick import read_pick
 from grasp_xl.workbook.reading_run import (
     SavedRun,
     genes_as_they_stand,
@@ -111,6 +112,7 @@ def read_previous(path: Path) -> Book | None:
 def _book(source: Source, *, stale_genes: bool) -> Book:
     space = read_option_space(source)
     parameters = read_parameters(source)
+    read_pick(source)
 
     def typed(block: Field) -> Chromosome | None:
         if stale_genes and find_block(source, block):
@@ -146,7 +148,7 @@ def _is_assigned(source: Source, space: OptionSpace, parameters: Parameters) -> 
 
 
 def _is_typed(source: Source, block: Field) -> bool:
-    """Tell whether any gene of a block is a plain value, and not a formula of ours."""
+    """Tell whether any gene of a block is somebody's, and not a formula of ours."""
     area = source.names.get(block.name)
     cells = [cell for row in cells_of(area) for cell in row] if area else []
-    return any(source.formula(cell) is None and not source.blank(cell) for cell in cells)
+    return any(cell not in source.worked_out and not source.blank(cell) for cell in cells)

@@ -146,6 +146,8 @@ class Source:
     package: Package
     problems: list[Problem] = field(default_factory=list)
     warnings: list[Problem] = field(default_factory=list)
+    worked_out: dict[Area, Value] = field(default_factory=dict)
+    """Values of cells that hold formulas of ours; what is stored there does not matter."""
     _grids: dict[tuple[str, bool, int], Grid] = field(default_factory=dict)
 
     @cached_property
@@ -220,6 +222,8 @@ class Source:
 
     def value(self, cell: Area) -> Value:
         """Return the value of a cell."""
+        if cell in self.worked_out:
+            return self.worked_out[cell]
         return self.grid(cell.sheet).at(cell.row, cell.column)
 
     def complain(self, where: str, found: str, expected: str, hint: str) -> None:
@@ -326,6 +330,17 @@ def shown(number: float) -> str:
         digits = len(str(abs(number)))
         return str(number) if digits <= _MAX_DIGITS else f"a number of {digits} digits"
     return repr(number).removesuffix(".0")
+
+
+def same_formula(text: str | None) -> str:
+    """Fold what programs write in different ways; empty for no formula.
+
+    Examples
+    --------
+    >>> same_formula("=Sum( $A$1 , 'GA'!B2)")
+    'SUM(A1,GA!B2)'
+    """
+    return re.sub(r"[\s$']", "", text or "").removeprefix("=").upper()
 
 
 def cells_of(area: Area) -> Iterator[Iterator[Area]]:

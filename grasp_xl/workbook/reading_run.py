@@ -15,7 +15,7 @@ from grasp_xl.search.result import State, Trace, gene_columns, load_stream
 from grasp_xl.space import IntArray, OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout, run_log
-from grasp_xl.workbook.cells import Source, Value, shown
+from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank, shown
 from grasp_xl.workbook.history_sheet import MAX_HISTORY
 from grasp_xl.workbook.layout import Area, Field
 from grasp_xl.workbook.reading_ga import find_block
@@ -127,6 +127,9 @@ def genes_as_they_stand(source: Source, block: Field) -> IntArray:
     area = find_block(source, block)
     if area is None:
         raise ValueError(f"no block {block.label!r}")
+    cells = (cell for row in cells_of(area) for cell in row)
+    if any(is_blank(source.value(cell)) and not source.blank(cell) for cell in cells):
+        raise ValueError("a formula without a stored value")
     return _genes(source, area)
 
 

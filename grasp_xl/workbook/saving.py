@@ -187,7 +187,7 @@ OBJECTS = {
 }
 """Objects in a workbook: what the names of their parts hold, and what is counted in these."""
 
-INPUTS = (*layout.PARAMETERS, layout.USER_BLOCK)
+INPUTS = (*layout.PARAMETERS, layout.USER_BLOCK, layout.WHAT_IF)
 """Inputs on the sheet ``GA``."""
 
 LOG_COLUMNS = 2
@@ -292,5 +292,6 @@ def _lost_formulas(source: Source, content: bytes, own: dict[str, str]) -> Itera
             ]
     for cell in cells:
         ours = Area(own.get(cell.sheet, cell.sheet), cell.row, cell.column)
-        if source.formula(cell) is not None and written.formula(ours) is None:
+        theirs = source.formula(cell) is not None and cell not in source.worked_out
+        if theirs and written.formula(ours) is None:
             yield cell.where

@@ -1,0 +1,145 @@
+"""What a designer picks from the list, pastes and types on the What-if card is read and kept."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import openpyxl
+import pytest
+from bad_workbooks import tiny_export
+
+from grasp_xl import cli
+from grasp_xl.workbook.book import Book, read_book
+from grasp_xl.workbook.designs_sheet import GENE_COLUMN, PICK_ROW
+from grasp_xl.workbook.layout import TABLE_ROW
+
+Genes = list[list[int]]
+
+
+@pytest.fixture(scope="module")
+def result(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Write the workbook of a run on the tiny export."""
+    folder = tmp_path_factory.mktemp("result")
+    tiny_export(folder / "tiny.xlsx")
+    assert run(folder / "tiny.xlsx", "--goals", "1000,90000,900,9000") == 0
+    return folder / "tiny-result.xlsx"
+
+
+@pytest.fixture
+def book(result: Path, tmp_path: Path) -> Path:
+    """Copy the workbook of a run to a folder of its own."""
+    return Path(shutil.copy(result, tmp_path / "out.xlsx"))
+
+
+def run(file: Path, *words: object) -> int:
+    """Run three hundred generations."""
+    return cli.main(["run", str(file), "--generations", "300", "--quiet", *map(str, words)])
+
+
+def edit(book: Path, change: Callable[[openpyxl.Workbook], object]) -> None:
+    """Change a workbook with openpyxl, which loses all cached values of formulas."""
+    opened = openpyxl.load_workbook(book)
+    change(opened)
+    opened.save(book)
+
+
+def cell_of(opened: openpyxl.Workbook, name: str, row: int = 0, column: int = 0) -> Any:
+    """Find a cell of a named area."""
+    sheet, cells = opened.defined_names[name].attr_text.replace("$", "").split("!")
+    return opened[sheet.strip("'")][cells.split(":")[0]].offset(row, column)
+
+
+def typed(name: str, value: object, row: int = 0, column: int = 0) -> Callable[[Any], None]:
+    """Make an edit of a named cell."""
+    return lambda opened: setattr(cell_of(opened, name, row, column), "value", value)
+
+
+def design(book: Path, number: int) -> Genes:
+    """Return the genes of a design of the list."""
+    sheet = openpyxl.load_workbook(book)["Valid Designs"]
+    row, first = TABLE_ROW + 1 + number, GENE_COLUMN + 1
+    genes = [sheet.cell(row, column).value for column in range(first, first + 12)]
+    return [genes[:6], genes[6:]]
+
+
+def shown_what_if(book: Path) -> Genes:
+    """Return the What-if genes that a reader sees who does not calculate."""
+    opened = openpyxl.load_workbook(book, data_only=True)
+    return [[cell_of(opened, "WhatIf", row, column).value for column in range(6)] for row in (0, 1)]
+
+
+def what_if(book: Book) -> Genes | None:
+    """Return the typed What-if genes."""
+    return book.what_if.genes.tolist() if book.what_if else None
+
+
+def with_cup_3(genes: Genes) -> Genes:
+    """Return genes whose last, inactive cup index is 3."""
+    return [[*genes[0][:-1], 3], genes[1]]
+
+
+# --- our formulas have no stored value ---
+
+
+def test_one_typed_gene_among_our_formulas_is_read(book: Path) -> None:
+    """Though openpyxl lost all stored values: the others are those that our formulas show."""
+    best = shown_what_if(book)
+    edit(book, typed("WhatIf", 3, 0, 5))
+    assert what_if(read_book(book)) == with_cup_3(best)
+    edit(book, typed("DesignPick", 2))
+    assert what_if(read_book(book)) == with_cup_3(design(book, 2))
+
+
+@pytest.mark.parametrize("command", ["run", "new"])
+def test_one_typed_gene_among_our_formulas_is_carried(
+    result: Path, book: Path, command: str
+) -> None:
+    wanted = with_cup_3(shown_what_if(book))
+    edit(book, typed("WhatIf", 3, 0, 5))
+    export = str(result.with_name("tiny.xlsx"))
+    assert (run(book, "--in-place") if command == "run" else new(export, book)) == 0
+    assert shown_what_if(book) == wanted
+    assert what_if(read_book(book)) == wanted
+
+
+def new(export: str, book: Path) -> int:
+    """Make a workbook of an export, into one that exists."""
+    return cli.main(["new", export, "-o", str(book), "--quiet"])
+
+
+def test_the_picked_rows_may_be_pasted_as_formulas(book: Path) -> None:
+    """Without stored values the user-defined grasp is still the picked design."""
+
+    def paste(opened: openpyxl.Workbook) -> None:
+        for row in range(2):
+            for column in range(6):
+                picked = opened["Valid Designs"].cell(PICK_ROW + 3 + row, 2 + column)
+                cell_of(opened, "UserChromosome", row, column).value = picked.value
+        cell_of(opened, "DesignPick").value = 2
+
+    edit(book, paste)
+    user = read_book(book).user_chromosome
+    assert user is not None
+    assert user.genes.tolist() == design(book, 2)
+    assert run(book, "--in-place") == 0  # and it is no stranger's formula that would be lost
+
+
+def test_nothing_is_typed_where_all_genes_are_ours(book: Path) -> None:
+    """Whatever is picked, and whoever saved the workbook."""
+    for number in (None, 1, 9999, "abc"):
+        edit(book, typed("DesignPick", number))
+        assert what_if(read_book(book)) is None
+
+
+def test_somebodys_formula_on_the_card_is_read_by_its_value(
+    result: Path, book: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """If it has none, that is an error, also where an export goes into the workbook."""
+    edit(book, typed("WhatIf", "=1+2", 0, 5))
+    export = str(result.with_name("tiny.xlsx"))
+    for command in (lambda: run(book, "--in-place"), lambda: new(export, book)):
+        assert command() == 3
+        assert "a formula without a stored value" in capsys.readouterr().err
