@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
+from collections.abc import Iterable
+from itertools import accumulate, pairwise
 from typing import TYPE_CHECKING, Any
 
 from grasp_xl.chromosome import Chromosome
-from grasp_xl.rules import TERMS
+from grasp_xl.rules import SLACK, TERMS
 from grasp_xl.search.result import Result, gene_columns
 from grasp_xl.workbook.layout import (
     FITNESS_HEADER,
@@ -117,18 +120,7 @@ def write_valid_designs(pen: Pen, book: Any, result: Result, unpicked: Chromosom
     _rows(pen, result, designs)
     _rows_to_copy(pen, result, designs, TABLE_ROW + rows + 3)
     add_table(pen, "ValidDesigns", Area(VALID_DESIGNS, TABLE_ROW, 0, 1 + rows, len(labels)), labels)
-    pen.sheet.conditional_format(
-        TABLE_ROW + 1,
-        len(labels) - 1,
-        TABLE_ROW + rows,
-        len(labels) - 1,
-        {
-            "type": "cell",
-            "criteria": "==",
-            "value": '"yes"',
-            "format": pen.formats.over(Style.PASSES),
-        },
-    )
+    _colours(pen, Area(VALID_DESIGNS, TABLE_ROW + 1, 0, rows, len(labels)))
     pen.sheet.freeze_panes(TABLE_ROW + 1, 1)
     norms, rest = [8.2] * len(NORMALISED), (CRITERIA_WIDTHS[-1], 8.5)
     gene_widths = [GENE_WIDTH] * len(genes)
@@ -160,6 +152,26 @@ def _rows(pen: Pen, result: Result, designs: pd.DataFrame) -> None:
         left += 1 + len(TERMS)
         pen.write(row, left, float(design["divergence"]), Style.DIVERGENCE)
         pen.write(row, left + 1, "yes" if design["meets_all_goals"] else "no", Style.CENTRED)
+
+
+def _colours(pen: Pen, listed: Area) -> None:
+    """Let normalised values above 1 stand out, and rows that meet all goals."""
+    width = len(NORMALISED)
+    norms = listed.cell(0, listed.columns - 2 - width)
+    last_row, last_column = listed.row + listed.rows - 1, listed.column + listed.columns - 1
+    above = f"=AND(ISNUMBER({norms.local}),{norms.local}>{1 + SLACK!r})"
+    meets = f'=${listed.cell(0, listed.columns - 1).local}="yes"'
+    for left, right, formula, style in (
+        (norms.column, norms.column + width - 1, above, Style.ABOVE),
+        (listed.column, last_column, meets, Style.PASSES),
+    ):
+        pen.sheet.conditional_format(
+            listed.row,
+            left,
+            last_row,
+            right,
+            {"type": "formula", "criteria": formula, "format": pen.formats.over(style)},
+        )
 
 
 def _picker(pen: Pen, result: Result, rows: int, unpicked: Chromosome) -> None:
@@ -215,21 +227,41 @@ def _rows_to_copy(pen: Pen, result: Result, designs: pd.DataFrame, top: int) -> 
             pen.row(row, GENE_COLUMN, genes[left : left + 1 + slots], style)
 
 
+def cost_bands(costs: Iterable[float]) -> list[tuple[float, float]]:
+    """Return the lowest and highest cost of each series: a cost each, or neighbours together.
+
+    Examples
+    --------
+    >>> cost_bands([30, 10, 30])
+    [(10, 10), (30, 30)]
+    >>> cost_bands(range(10))[:3]
+    [(0, 1), (2, 3), (4, 4)]
+    >>> cost_bands([])
+    []
+    """
+    different = sorted(set(costs))
+    each, more = divmod(len(different), len(SEQUENCE))
+    sizes = [each + (number < more) for number in range(len(SEQUENCE))]
+    ends = [end for size, end in zip(sizes, accumulate(sizes), strict=True) if size]
+    return [(different[start], different[end - 1]) for start, end in pairwise((0, *ends))]
+
+
 def _trade_off(pen: Pen, book: Any, designs: pd.DataFrame, place: Area) -> None:  # noqa: ANN401 (untyped library)
-    """Chart structure against deviation, a series a cost, from columns beside the chart."""
-    costs = sorted(designs["cost"].unique())[: len(SEQUENCE)]
-    if not costs:
+    """Chart structure against deviation, a series a band of costs; its data stand beside it."""
+    bands = cost_bands(designs["cost"].tolist())
+    if not bands:
         return
     left = place.column + place.columns + 1
     chart = book.add_chart({"type": "scatter"})
-    pen.row(TABLE_ROW, left, ("Deviation (mm)", *(f"${cost:g}" for cost in costs)), Style.HEADER)
+    names = [" to ".join(dict.fromkeys(f"${cost:,.10g}" for cost in band)) for band in bands]
+    pen.row(TABLE_ROW, left, ("Deviation (mm)", *names), Style.HEADER)
+    lowest = [low for low, _ in bands]
     records = zip(designs["deviation"], designs["structure"], designs["cost"], strict=True)
     for row, (deviation, structure, cost) in enumerate(records, TABLE_ROW + 1):
         pen.write(row, left, float(deviation), Style.RATIO)
-        if cost in costs:
-            pen.write(row, left + 1 + costs.index(cost), float(structure), Style.TORQUE)
+        pen.write(row, left + bisect_right(lowest, cost), float(structure), Style.TORQUE)
     first, last = TABLE_ROW + 1, TABLE_ROW + len(designs)
-    for number, (cost, colour) in enumerate(zip(costs, SEQUENCE, strict=False), left + 1):
+    for number, (name, colour) in enumerate(zip(names, SEQUENCE, strict=False), left + 1):
         marker = {
             "type": "circle",
             "size": 6,
@@ -238,7 +270,7 @@ def _trade_off(pen: Pen, book: Any, designs: pd.DataFrame, place: Area) -> None:
         }
         chart.add_series(
             {
-                "name": f"Cost ${cost:g}",
+                "name": f"Cost {name}",
                 "categories": [VALID_DESIGNS, first, left, last, left],
                 "values": [VALID_DESIGNS, first, number, last, number],
                 "marker": marker,
