@@ -196,7 +196,7 @@ def _taken_over(book: Book, previous: Book) -> tuple[Book, list[Problem]]:
     typed: list[Chromosome | None] = []
     for chromosome, block in (
         (previous.user_chromosome, layout.USER_BLOCK),
-        (previous.what_if, layout.WHAT_IF),
+        (previous.what_if or previous.picked, layout.WHAT_IF),
     ):
         genes = None
         if chromosome:
@@ -329,6 +329,7 @@ def _full_workbook(task: Task, result: Result, book: Book, began: datetime) -> t
         result,
         Origin(name, source.sha256, began, _now()),
         what_if=book.what_if,
+        picked=book.picked,
         stale_user=user if user and not is_usable(user, task.space) else None,
     )
 

@@ -129,6 +129,7 @@ def test_the_picked_rows_may_be_pasted_as_formulas(book: Path) -> None:
 
 def test_nothing_is_typed_where_all_genes_are_ours(book: Path) -> None:
     """Whatever is picked, and whoever saved the workbook."""
+    assert what_if(read_book(book)) is None
     for number in (None, 1, 9999, "abc"):
         edit(book, typed("DesignPick", number))
         assert what_if(read_book(book)) is None
@@ -143,3 +144,70 @@ def test_somebodys_formula_on_the_card_is_read_by_its_value(
     for command in (lambda: run(book, "--in-place"), lambda: new(export, book)):
         assert command() == 3
         assert "a formula without a stored value" in capsys.readouterr().err
+
+
+# --- the pick ---
+
+
+def picked_number(book: Path) -> object:
+    """Return the number that is picked."""
+    return cell_of(openpyxl.load_workbook(book), "DesignPick").value
+
+
+def test_a_picked_design_stays_picked_where_the_list_still_has_it(book: Path) -> None:
+    """The What-if card shows it, and still follows another pick."""
+    wanted = design(book, 2)
+    edit(book, typed("DesignPick", 2))
+    assert run(book, "--in-place") == 0
+    number = picked_number(book)
+    assert design(book, number) == shown_what_if(book) == wanted
+    assert what_if(read_book(book)) is None
+
+
+def test_a_picked_design_that_the_list_no_longer_has_stays_on_the_card(
+    result: Path, book: Path
+) -> None:
+    """As typed genes: after a run of another course, and after a new export."""
+    wanted = design(book, 2)
+    edit(book, typed("DesignPick", 2))
+    again = Path(shutil.copy(book, book.with_name("again.xlsx")))
+    assert run(book, "--in-place", "--seed", 77, "--start", "random") == 0
+    assert wanted not in designs(book)
+    assert new(str(result.with_name("tiny.xlsx")), again) == 0
+    for path in (book, again):
+        assert picked_number(path) is None
+        assert what_if(read_book(path)) == shown_what_if(path) == wanted
+
+
+def designs(book: Path) -> list[Genes]:
+    """Return all designs of the list."""
+    rows = openpyxl.load_workbook(book)["Valid Designs"].tables["ValidDesigns"].ref
+    return [design(book, number) for number in range(1, int(rows.rpartition("Z")[2]) - TABLE_ROW)]
+
+
+def test_a_pick_beside_typed_genes_stays_and_so_do_they(book: Path) -> None:
+    edit(book, typed("DesignPick", 2))
+    wanted = with_cup_3(design(book, 2))
+    edit(book, typed("WhatIf", 3, 0, 5))
+    assert run(book, "--in-place") == 0
+    assert (picked_number(book), shown_what_if(book)) == (2, wanted)
+
+
+def test_a_picked_design_with_a_place_that_is_gone_is_named(
+    tmp_path: Path, book: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    edit(book, typed("DesignPick", 2))
+    least = tmp_path / "least.xlsx"
+    gone = {f"{c}{r}": None for c in "DEF" for r in range(6, 11)}
+    tiny_export(least, {"B16": 1, "B11": 0} | gone)  # one cup
+    assert cli.main(["new", str(least), "-o", str(book)]) == 0
+    assert "What-if, suction Index 1: found index" in capsys.readouterr().err
+
+
+def test_a_picked_design_that_cannot_be_any_more_is_told(
+    book: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    edits = (typed("DesignPick", 2), typed("SuctionMax", 1), typed("UserChromosome", 1))
+    edit(book, lambda opened: [change(opened) for change in edits])
+    assert cli.main(["check", str(book)]) == 0
+    assert "a design that the option space no longer has" in capsys.readouterr().err

@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from itertools import accumulate, pairwise
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.rules import SLACK, TERMS
 from grasp_xl.search.result import Result, gene_columns
@@ -105,10 +107,23 @@ def _usable(rows: int) -> str:
     return f"AND(ISNUMBER({PICK_NAME}),ISNUMBER(MATCH({PICK_NAME},{_numbers(rows)},0)))"
 
 
-def write_valid_designs(pen: Pen, book: Any, result: Result, unpicked: Chromosome) -> None:  # noqa: ANN401 (untyped library)
+def number_of(result: Result, chromosome: Chromosome) -> int | None:
+    """Return the number that a design has in the list; None where it has none."""
+    genes = result.state.designs.genes[-MAX_DESIGNS:]
+    numbers = np.flatnonzero((genes == chromosome.genes).all(axis=(1, 2)))
+    return int(numbers[0]) + 1 if len(numbers) else None
+
+
+def write_valid_designs(
+    pen: Pen,
+    book: Any,  # noqa: ANN401 (untyped library)
+    result: Result,
+    unpicked: Chromosome,
+    picked: Chromosome | None,
+) -> None:
     """Write the list as an Excel table, a picked row above, all gene rows below, a chart beside.
 
-    ``unpicked`` are the genes shown while no row is picked.
+    ``unpicked`` are the genes shown while no row is picked, ``picked`` the design picked before.
     """
     designs = result.valid_designs().tail(MAX_DESIGNS)
     own_units = [label for _, _, label, _ in CRITERIA[:-1]]
@@ -116,7 +131,7 @@ def write_valid_designs(pen: Pen, book: Any, result: Result, unpicked: Chromosom
     labels = ["No.", "Generation", *genes, *own_units, *NORMALISED, "Divergence", "Meets All Goals"]
     rows = max(1, len(designs))
     pen.write(0, 0, "VALID DESIGNS", Style.TITLE)
-    _picker(pen, result, rows, unpicked)
+    _picker(pen, result, rows, unpicked, picked)
     _rows(pen, result, designs)
     _rows_to_copy(pen, result, designs, TABLE_ROW + rows + 3)
     add_table(pen, "ValidDesigns", Area(VALID_DESIGNS, TABLE_ROW, 0, 1 + rows, len(labels)), labels)
@@ -174,12 +189,16 @@ def _colours(pen: Pen, listed: Area) -> None:
         )
 
 
-def _picker(pen: Pen, result: Result, rows: int, unpicked: Chromosome) -> None:
+def _picker(
+    pen: Pen, result: Result, rows: int, unpicked: Chromosome, picked: Chromosome | None
+) -> None:
     """Write two gene rows as figure 34 has them: of the picked row, or of the best grasp."""
     slots = result.space.gene_slots
+    number = number_of(result, picked) if picked else None
+    shown = picked if picked and number else unpicked
     pick = Area(VALID_DESIGNS, PICK_ROW, 1)
     pen.write(PICK_ROW, 0, "No. to show", Style.LABEL)
-    pen.write(PICK_ROW, 1, None, Style.INPUT)
+    pen.write(PICK_ROW, 1, number, Style.INPUT)
     wrong = f"No such number: type a whole number from 1 to {rows}; the best grasp is shown."
     hint = f'IF(OR({PICK_NAME}="",{_usable(rows)}),"{PICK_HINT}","{wrong}")'
     pen.write(PICK_ROW, 2, PICK_HINT, Style.NOTE, hint)
@@ -199,10 +218,10 @@ def _picker(pen: Pen, result: Result, rows: int, unpicked: Chromosome) -> None:
     )
     pen.row(PICK_ROW + 1, 1, _slot_labels(slots), Style.HEADER)
     formulas = pick_formulas(slots, rows, unpicked)
-    for number, (kind, genes) in enumerate(zip(KINDS, unpicked.rows(), strict=True)):
-        row, style = PICK_ROW + 2 + number, GENE_ROW_STYLES[number]
-        pen.write(row, 0, kind.row_label, style)
-        for slot, (gene, formula) in enumerate(zip(genes, formulas[number], strict=True)):
+    for kind, (labels, genes) in enumerate(zip(KINDS, shown.rows(), strict=True)):
+        row, style = PICK_ROW + 2 + kind, GENE_ROW_STYLES[kind]
+        pen.write(row, 0, labels.row_label, style)
+        for slot, (gene, formula) in enumerate(zip(genes, formulas[kind], strict=True)):
             pen.write(row, 1 + slot, gene, style, formula)
 
 

@@ -18,7 +18,7 @@ from grasp_xl.workbook.designs_sheet import (
     picked_genes,
 )
 from grasp_xl.workbook.layout import TABLE_ROW
-from grasp_xl.workbook.reading_run import DESIGNS_LISTED, UNREADABLE, logged_values
+from grasp_xl.workbook.reading_run import DESIGNS_LISTED, UNREADABLE, logged_values, whole
 
 BLOCKS = (layout.USER_BLOCK, layout.WHAT_IF)
 """Chromosome blocks that may hold our formulas: the What-if's own, and pasted ones."""
@@ -33,7 +33,7 @@ def read_pick(source: Source) -> Chromosome | None:
     picked = None
     with suppress(*UNREADABLE):
         logged = logged_values(source)
-        listed = int(str(logged[DESIGNS_LISTED]))
+        listed = whole(logged[DESIGNS_LISTED])
         written = source.value(source.names[run_log.WHAT_IF_WRITTEN])
         unpicked = Chromosome(np.array(json.loads(str(written))))
         slots = unpicked.genes.shape[1] - 1

@@ -160,16 +160,16 @@ def _state(source: Source, space: OptionSpace, logged: dict[str, Value]) -> Stat
     best = _checked(space, np.array(json.loads(str(best_text)))) if best_text else None
     listed = logged[CHANGES_LISTED]
     changes = _trace(source, space, layout.HISTORY, layout.HISTORY_ROW, listed)
-    if _whole(listed) >= MAX_HISTORY:
+    if whole(listed) >= MAX_HISTORY:
         changes = _without_repeat(changes)
-    generation = _whole(named(run_log.GENERATIONS_DONE))
+    generation = whole(named(run_log.GENERATIONS_DONE))
     if generation and not len(changes):
         raise ValueError("an empty history")
     designs = _trace(source, space, layout.VALID_DESIGNS, layout.TABLE_ROW, logged[DESIGNS_LISTED])
     parent = _checked(space, genes_as_they_stand(source, layout.PARENT_BLOCK))
     return State(
         generation=generation,
-        evaluations=_whole(named(run_log.EVALUATIONS)),
+        evaluations=whole(named(run_log.EVALUATIONS)),
         parent=parent,
         random_state=random_state,
         random_chromosome=_checked(space, genes_as_they_stand(source, layout.RANDOM_BLOCK)),
@@ -177,8 +177,8 @@ def _state(source: Source, space: OptionSpace, logged: dict[str, Value]) -> Stat
         changes=changes,
         designs=designs,
         best=best,
-        improved_at=_whole(named(run_log.BEST_FOUND_AT)) if best else 0,
-        earlier_designs=_whole(named(run_log.DESIGNS_FOUND)) - len(designs),
+        improved_at=whole(named(run_log.BEST_FOUND_AT)) if best else 0,
+        earlier_designs=whole(named(run_log.DESIGNS_FOUND)) - len(designs),
     )
 
 
@@ -196,7 +196,7 @@ def _check(state: State, logged: dict[str, Value]) -> None:
     """
     changes, parent = state.changes, state.parent.genes
     n = len(changes)
-    gaps = _whole(logged[CHANGES_LISTED]) >= MAX_HISTORY
+    gaps = whole(logged[CHANGES_LISTED]) >= MAX_HISTORY
     repeated = state.best and n > 1 and np.array_equal(changes.genes[-2], parent)
     faults = {
         "a row of the designs is missing": len(state.designs) != logged[DESIGNS_LISTED],
@@ -212,14 +212,21 @@ def _check(state: State, logged: dict[str, Value]) -> None:
             raise ValueError(fault)
 
 
-def _whole(value: Value) -> int:
+def whole(value: Value) -> int:
+    """Return a cell's value as a whole number.
+
+    Raises
+    ------
+    ValueError
+        If it is none.
+    """
     if isinstance(value, bool) or not isinstance(value, int | float) or value != int(value):
         raise ValueError(f"{value!r} is no whole number")
     return int(value)
 
 
 def _gene(value: Value) -> int:
-    return BLANK_GENE if value is None else _whole(value)
+    return BLANK_GENE if value is None else whole(value)
 
 
 def _genes(source: Source, area: Area) -> IntArray:
@@ -251,9 +258,9 @@ def _trace(source: Source, space: OptionSpace, sheet: str, header_row: int, list
     columns = [header.index(names.get(name, name)) for name in gene_columns(space)]
     when = header.index(GENERATION)
     generations, genes = [], []
-    for row in range(header_row + 1, header_row + 1 + _whole(listed)):
+    for row in range(header_row + 1, header_row + 1 + whole(listed)):
         if grid.at(row, when) is not None:
-            generations.append(_whole(grid.at(row, when)))
+            generations.append(whole(grid.at(row, when)))
             genes.append([_gene(grid.at(row, column)) for column in columns])
     shape = (len(genes), len(space.kinds), 1 + space.gene_slots)
     chromosomes = np.array(genes, dtype=np.int64).reshape(shape)
