@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
@@ -12,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from grasp_xl.chromosome import Chromosome, from_active, index_faults
-from grasp_xl.errors import InputError, Problem, UsageError
+from grasp_xl.errors import InfeasibleError, InputError, Problem, UsageError
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Terms
 from grasp_xl.search.feasibility import any_feasible, max_fos
@@ -27,15 +28,18 @@ from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book, read_previous
 from grasp_xl.workbook.carrying import carried, is_usable
 from grasp_xl.workbook.cells import Source
+from grasp_xl.workbook.losses import Written, filled_cells, refuse_losses
 from grasp_xl.workbook.package import Package
-from grasp_xl.workbook.reading_run import SavedRun, refuse_other_inputs
+from grasp_xl.workbook.reading_run import (
+    SavedRun,
+    refuse_other_inputs,
+    written_children,
+)
 from grasp_xl.workbook.run_log import Origin
 from grasp_xl.workbook.saving import (
     check_place,
     check_target,
-    filled_cells,
     refuse_edited,
-    refuse_losses,
     save,
 )
 from grasp_xl.workbook.writing import Filled, export_workbook, full_workbook
@@ -288,36 +292,57 @@ def _saved_run(book: Book, task: Task) -> SavedRun:
 def _refuse_losses(output: Output, previous: Book) -> None:
     """Refuse to replace a workbook that holds something which is not ours, before any search."""
     if not (output.force or previous.is_untouched):
-        content, ours = _as_written(previous)
-        refuse_losses(output.path, previous.source, content, ours)
+        refuse_losses(output.path, previous.source, _as_written(previous))
 
 
-def _as_written(book: Book) -> tuple[bytes, Filled]:
-    """Write a workbook again as it was, with its own cards and results, to know our cells."""
-    names = book.source.names
-    genes = names.get(layout.USER_BLOCK.name)
-    if genes is None:  # an export
+def _as_written(book: Book) -> Written:
+    """Write a workbook again as it was, with its own cards and results, to know what is ours."""
+    if layout.USER_BLOCK.name not in book.source.names:  # an export
         content = export_workbook(book.space)
         cells = filled_cells(Source(Package("export", content)), layout.OPTION_SPACE)
-        return content, {layout.OPTION_SPACE: cells}
+        return Written(content, {layout.OPTION_SPACE: cells}, same_inputs=False)
+    task = _task_of_its_run(book)
+    same_inputs = task is not None
+    was = replace(book, what_if=None) if task else _of_its_sizes(book)
+    if task is None:
+        any_grasp = random_chromosome(was.space, np.random.default_rng(0))
+        task = settle(was.space, was.parameters, any_grasp)
+    shown = was.shown_run()
+    result = _not_begun(task, shown.state if shown else None)
+    if shown:
+        children = written_children(book.source, task.space) or shown.children
+        result = replace(result, matrix=shown.matrix, children=children)
+    return Written(*_full_workbook(task, result, was, _now()), same_inputs)
+
+
+def _task_of_its_run(book: Book) -> Task | None:
+    """Return the task of the run that a workbook holds; None if inputs or lists changed since."""
+    user = book.user_chromosome
+    if user is None or is_usable(user, book.space):
+        with suppress(InfeasibleError, InputError):
+            task = settle(book.space, book.parameters, user)
+            _saved_run(book, task)
+            return task
+    return None
+
+
+def _of_its_sizes(book: Book) -> Book:
+    """Return a book with the sizes of its cards, whatever sizes it asks for now."""
+    names = book.source.names
     children = sum(re.fullmatch(r"Child\d+", name) is not None for name in names)
-    slots = genes.columns - 1
+    slots = names[layout.USER_BLOCK.name].columns - 1
     kinds = (
         replace(kind, count_min=min(kind.count_min, slots), count_max=slots)
         for kind in book.space.kinds
     )
-    was = replace(
+    return replace(
         book,
         space=replace(book.space, kinds=tuple(kinds)),
         parameters=replace(book.parameters, children=max(2, children)),
         user_chromosome=None,
         what_if=None,
+        picked=None,
     )
-    any_grasp = random_chromosome(was.space, np.random.default_rng(0))
-    task = settle(was.space, was.parameters, any_grasp)
-    shown = was.shown_run()
-    result = _not_begun(task, shown.state if shown else None)
-    return _full_workbook(task, result, was, _now())
 
 
 def _full_workbook(task: Task, result: Result, book: Book, began: datetime) -> tuple[bytes, Filled]:

@@ -39,6 +39,7 @@ LABEL_ROWS = 500
 ERROR_VALUES = ("#N/A", "#REF!", "#DIV/0!", "#VALUE!", "#NAME?", "#NUM!", "#NULL!")
 
 _PLACE = re.compile(r".+!\$?[A-Z]{1,3}\$?[1-9]\d*(:\$?[A-Z]{1,3}\$?[1-9]\d*)?")
+_NUMBER = re.compile(r"(?<![A-Z0-9_.])\d+(\.\d+)?(E[+-]?\d+)?(?![A-Z0-9_.(])")
 _AS_FAR_AS_A_ROW_GOES = 0
 _MAX_DIGITS = 20  # of a whole number that a message shows
 
@@ -337,10 +338,11 @@ def same_formula(text: str | None) -> str:
 
     Examples
     --------
-    >>> same_formula("=Sum( $A$1 , 'GA'!B2)")
-    'SUM(A1,GA!B2)'
+    >>> same_formula("=Sum( $A$1 , 'GA'!B2)"), same_formula("IF(A1<1E-9,TRUE(),2.50)")
+    ('SUM(A1,GA!B2)', 'IF(A1<1e-09,TRUE,2.5)')
     """
-    return re.sub(r"[\s$']", "", text or "").removeprefix("=").upper()
+    plain = re.sub(r"[\s$']|(?<=TRUE)\(\)", "", (text or "").upper()).removeprefix("=")
+    return _NUMBER.sub(lambda number: f"{float(number[0]):.12g}", plain)
 
 
 def cells_of(area: Area) -> Iterator[Iterator[Area]]:

@@ -27,6 +27,8 @@ from grasp_xl.workbook.table import (
     GENE_WIDTH,
     GENERATION_WIDTH,
     GRID,
+    NO,
+    YES,
     add_table,
     gene_labels,
     gene_styles,
@@ -166,7 +168,7 @@ def _rows(pen: Pen, result: Result, designs: pd.DataFrame) -> None:
             pen.write(row, column, shown_number(design[f"normalised_{name}"]), Style.RATIO)
         left += 1 + len(TERMS)
         pen.write(row, left, float(design["divergence"]), Style.DIVERGENCE)
-        pen.write(row, left + 1, "yes" if design["meets_all_goals"] else "no", Style.CENTRED)
+        pen.write(row, left + 1, YES if design["meets_all_goals"] else NO, Style.CENTRED)
 
 
 def _colours(pen: Pen, listed: Area) -> None:
@@ -175,7 +177,7 @@ def _colours(pen: Pen, listed: Area) -> None:
     norms = listed.cell(0, listed.columns - 2 - width)
     last_row, last_column = listed.row + listed.rows - 1, listed.column + listed.columns - 1
     above = f"=AND(ISNUMBER({norms.local}),{norms.local}>{1 + SLACK!r})"
-    meets = f'=${listed.cell(0, listed.columns - 1).local}="yes"'
+    meets = f'=${listed.cell(0, listed.columns - 1).local}="{YES}"'
     for left, right, formula, style in (
         (norms.column, norms.column + width - 1, above, Style.ABOVE),
         (listed.column, last_column, meets, Style.PASSES),

@@ -15,6 +15,7 @@ from grasp_xl.search.result import State, Trace, gene_columns, load_stream
 from grasp_xl.space import IntArray, OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout, run_log
+from grasp_xl.workbook.calc_sheet import CalcBlock
 from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank, shown
 from grasp_xl.workbook.history_sheet import MAX_HISTORY
 from grasp_xl.workbook.layout import Area, Field
@@ -133,21 +134,33 @@ def genes_as_they_stand(source: Source, block: Field) -> IntArray:
     return _genes(source, area)
 
 
+def written_children(source: Source, space: OptionSpace) -> tuple[Chromosome, ...]:
+    """Return the children as we wrote them, though somebody may have typed over their cards.
+
+    There are none of them where the helper sheet is not as it was.
+    """
+    with suppress(*UNREADABLE):
+        blocks = [CalcBlock(1 + n, space.gene_slots, area) for n, area in enumerate(_cards(source))]
+        return tuple(_checked(space, _genes(source, block.engine_genes)) for block in blocks)
+    return ()
+
+
+def _cards(source: Source) -> list[Area]:
+    """Return the genes of the child cards."""
+    names = [f"Child{number}" for number in range(1, 1 + len(source.names))]
+    return [source.names[name] for name in names if name in source.names]
+
+
 def _no_run(source: Source, found: str, hint: str) -> InputError:
     expected = "a workbook with a run to go on from"
     return InputError([Problem(source.package.name, found, expected, hint)])
 
 
 def _saved_run(source: Source, space: OptionSpace, logged: dict[str, Value]) -> SavedRun:
-    children = [
-        source.names[name]
-        for number in range(1, 1 + len(source.names))
-        if (name := f"Child{number}") in source.names
-    ]
     return SavedRun(
         state=_state(source, space, logged),
         matrix=genes_as_they_stand(source, layout.MATRIX_BLOCK),
-        children=tuple(_checked(space, _genes(source, area)) for area in children),
+        children=tuple(_checked(space, _genes(source, area)) for area in _cards(source)),
     )
 
 
