@@ -22,7 +22,7 @@ from grasp_xl.search.genetic import OnProgress, search
 from grasp_xl.search.mutation import random_chromosome
 from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import Generations, StopRule
-from grasp_xl.space import OptionSpace
+from grasp_xl.space import ElementKind, OptionSpace
 from grasp_xl.task import Parameters, Task, settle
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book, read_previous
@@ -32,6 +32,7 @@ from grasp_xl.workbook.losses import Written, filled_cells, refuse_losses
 from grasp_xl.workbook.package import Package
 from grasp_xl.workbook.reading_run import (
     SavedRun,
+    largest_listed,
     refuse_other_inputs,
     written_children,
 )
@@ -327,12 +328,16 @@ def _task_of_its_run(book: Book) -> Task | None:
 
 
 def _of_its_sizes(book: Book) -> Book:
-    """Return a book with the sizes of its cards, whatever sizes it asks for now."""
+    """Return a book with the sizes of its cards and lists, whatever sizes it asks for now."""
     names = book.source.names
     children = sum(re.fullmatch(r"Child\d+", name) is not None for name in names)
     slots = names[layout.USER_BLOCK.name].columns - 1
     kinds = (
-        replace(kind, count_min=min(kind.count_min, slots), count_max=slots)
+        replace(
+            _with_places(kind, largest_listed(book.source, kind.name)),
+            count_min=min(kind.count_min, slots),
+            count_max=slots,
+        )
         for kind in book.space.kinds
     )
     return replace(
@@ -343,6 +348,16 @@ def _of_its_sizes(book: Book) -> Book:
         what_if=None,
         picked=None,
     )
+
+
+def _with_places(kind: ElementKind, number: int) -> ElementKind:
+    """Return a kind with so many places at least, as it had when its lists were written."""
+    gone = np.zeros((max(0, number - kind.total), 3))
+    overlap = kind.overlap
+    if overlap is not None:
+        overlap = np.concatenate([overlap, np.full(len(gone), np.nan)])
+    footprints = np.vstack([kind.footprints_mm, gone])
+    return replace(kind, footprints_mm=footprints, overlap=overlap)
 
 
 def _full_workbook(task: Task, result: Result, book: Book, began: datetime) -> tuple[bytes, Filled]:

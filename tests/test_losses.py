@@ -200,12 +200,19 @@ def test_no_input_is_a_loss(book: Path, what: str) -> None:
     assert run_in_place(book) == 0
 
 
-def test_what_we_named_is_not_named_of_a_longer_list(
-    book: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """A place more, with its index and a new total, is an input as well."""
-    row = {"C11": 7, "D11": 20, "E11": 25, "F11": 10, "B16": 7}
-    edit(book, *(in_cell("Option Space", cell, value) for cell, value in row.items()))
+SIZES = {
+    "a place more": {"C11": 7, "D11": 20, "E11": 25, "F11": 10, "B16": 7},
+    "a place less": {"D10": None, "E10": None, "F10": None, "B16": 5},
+    "a larger maximum": {"B12": 7},
+    "a smaller maximum": {"B20": 3},
+}
+"""What moves cards and lengthens lists: cells of the option space."""
+
+
+@pytest.mark.parametrize("what", SIZES)
+def test_no_other_size_is_a_loss(book: Path, capsys: pytest.CaptureFixture[str], what: str) -> None:
+    """Also where designs of the list have an index that is gone."""
+    edit(book, *(in_cell("Option Space", *item) for item in SIZES[what].items()))
     code = run_in_place(book)
     assert (code, capsys.readouterr().err) == (0, "")
 

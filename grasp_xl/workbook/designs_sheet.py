@@ -44,6 +44,8 @@ MAX_DESIGNS = 10_000
 
 PICK_NAME = "DesignPick"
 PICK_ROW = 2
+PICKED_ROWS = (PICK_ROW + 2, 1)
+"""First cell of the picked design's two gene rows."""
 PICK_HINT = (
     "Type a No. of the list: the two rows below and the What-if card show that design. Empty: the "
     "best grasp. The rows of every design stand below the list, ready to copy."

@@ -209,7 +209,7 @@ class Comparison:
         if cell in self._source.worked_out or (cell in self._inputs and not formula):
             return ""
         if formula:
-            kept = our_formula and (cell in self._inputs or self._same_text(formula, our_formula))
+            kept = our_formula == formula or (our_formula and cell in self._inputs)
             return "" if kept else FORMULAS
         value, our_value = self._source.value(cell), self._copy.value(copied)
         if our_formula:

@@ -14,10 +14,11 @@ from grasp_xl.workbook.designs_sheet import (
     GENE_COLUMN,
     NUMBER_COLUMN,
     PICK_NAME,
+    PICKED_ROWS,
     pick_formulas,
     picked_genes,
 )
-from grasp_xl.workbook.layout import TABLE_ROW
+from grasp_xl.workbook.layout import TABLE_ROW, Area
 from grasp_xl.workbook.reading_run import DESIGNS_LISTED, UNREADABLE, logged_values, whole
 
 BLOCKS = (layout.USER_BLOCK, layout.WHAT_IF)
@@ -39,6 +40,9 @@ def read_pick(source: Source) -> Chromosome | None:
         slots = unpicked.genes.shape[1] - 1
         picked = _picked(source, listed, unpicked)
         ours = _our_formulas(slots, max(1, listed), unpicked, picked or unpicked)
+        areas.append(
+            Area(source.names[PICK_NAME].sheet, *PICKED_ROWS, len(layout.KINDS), 1 + slots)
+        )
         for cell in (cell for area in areas for row in cells_of(area) for cell in row):
             formula = same_formula(source.formula(cell))
             if formula in ours:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -29,6 +30,9 @@ CHANGES_LISTED = "Changes listed in the history"
 
 GENERATION = "Generation"
 """Header of the lists' column that says when."""
+
+LISTS = {layout.VALID_DESIGNS: layout.TABLE_ROW, layout.HISTORY: layout.HISTORY_ROW}
+"""Sheets of the lists with genes, and their header rows."""
 
 UNREADABLE = (ValueError, TypeError, IndexError, KeyError, OverflowError, RecursionError)
 """What reading a run raises where somebody changed it."""
@@ -132,6 +136,19 @@ def genes_as_they_stand(source: Source, block: Field) -> IntArray:
     if any(is_blank(source.value(cell)) and not source.blank(cell) for cell in cells):
         raise ValueError("a formula without a stored value")
     return _genes(source, area)
+
+
+def largest_listed(source: Source, kind: str) -> int:
+    """Return the largest index of a kind among the genes of the lists, also one that is gone."""
+    found = [0]
+    for sheet, header_row in LISTS.items():
+        rows = source.grid(sheet).rows if sheet in source.sheets else {}
+        genes = re.compile(rf"{kind[0].upper()}\d+")
+        for column, label in enumerate(rows.get(header_row, ())):
+            if genes.fullmatch(str(label)):
+                cells = [row[column] for row in rows.values() if column < len(row)]
+                found += [int(cell) for cell in cells if isinstance(cell, int | float)]
+    return max(found)
 
 
 def written_children(source: Source, space: OptionSpace) -> tuple[Chromosome, ...]:
