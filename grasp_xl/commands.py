@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
@@ -26,21 +27,25 @@ from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import Generations, Interrupt, StopRule
 from grasp_xl.search.unmet_goals import floor_warnings, why_none_meets_all
 from grasp_xl.search.warm import load_exact_search
-from grasp_xl.space import OptionSpace
+from grasp_xl.space import ElementKind, OptionSpace
 from grasp_xl.task import Parameters, Task, settle
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book, read_previous
 from grasp_xl.workbook.carrying import carried, is_usable
 from grasp_xl.workbook.cells import Source
+from grasp_xl.workbook.losses import Written, filled_cells, refuse_losses
 from grasp_xl.workbook.package import Package
-from grasp_xl.workbook.reading_run import SavedRun, refuse_other_inputs
+from grasp_xl.workbook.reading_run import (
+    SavedRun,
+    largest_listed,
+    refuse_other_inputs,
+    written_children,
+)
 from grasp_xl.workbook.run_log import Origin
 from grasp_xl.workbook.saving import (
     check_place,
     check_target,
-    filled_cells,
     refuse_edited,
-    refuse_losses,
     save,
 )
 from grasp_xl.workbook.writing import Filled, export_workbook, full_workbook
@@ -236,7 +241,7 @@ def _taken_over(book: Book, previous: Book) -> tuple[Book, list[Problem]]:
     typed: list[Chromosome | None] = []
     for chromosome, block in (
         (previous.user_chromosome, layout.USER_BLOCK),
-        (previous.what_if, layout.WHAT_IF),
+        (previous.what_if or previous.picked, layout.WHAT_IF),
     ):
         genes = None
         if chromosome:
@@ -390,36 +395,71 @@ def _obstacle(task: Task, settings: ExactSettings) -> InfeasibleError | None:
 def _refuse_losses(output: Output, previous: Book) -> None:
     """Refuse to replace a workbook that holds something which is not ours, before any search."""
     if not (output.force or previous.is_untouched):
-        content, ours = _as_written(previous)
-        refuse_losses(output.path, previous.source, content, ours)
+        refuse_losses(output.path, previous.source, _as_written(previous))
 
 
-def _as_written(book: Book) -> tuple[bytes, Filled]:
-    """Write a workbook again as it was, with its own cards and results, to know our cells."""
-    names = book.source.names
-    genes = names.get(layout.USER_BLOCK.name)
-    if genes is None:  # an export
+def _as_written(book: Book) -> Written:
+    """Write a workbook again as it was, with its own cards and results, to know what is ours."""
+    if layout.USER_BLOCK.name not in book.source.names:  # an export
         content = export_workbook(book.space)
         cells = filled_cells(Source(Package("export", content)), layout.OPTION_SPACE)
-        return content, {layout.OPTION_SPACE: cells}
+        return Written(content, {layout.OPTION_SPACE: cells}, same_inputs=False)
+    task = _task_of_its_run(book)
+    same_inputs = task is not None
+    was = replace(book, what_if=None) if task else _of_its_sizes(book)
+    if task is None:
+        any_grasp = random_chromosome(was.space, np.random.default_rng(0))
+        task = settle(was.space, was.parameters, any_grasp)
+    shown = was.shown_run()
+    result = _not_begun(task, shown.state if shown else None)
+    if shown:
+        children = written_children(book.source, task.space) or shown.children
+        result = replace(result, matrix=shown.matrix, children=children)
+    return Written(*_full_workbook(task, result, was, _now()), same_inputs)
+
+
+def _task_of_its_run(book: Book) -> Task | None:
+    """Return the task of the run that a workbook holds; None if inputs or lists changed since."""
+    user = book.user_chromosome
+    if user is None or is_usable(user, book.space):
+        with suppress(InfeasibleError, InputError):
+            task = settle(book.space, book.parameters, user)
+            _saved_run(book, task)
+            return task
+    return None
+
+
+def _of_its_sizes(book: Book) -> Book:
+    """Return a book with the sizes of its cards and lists, whatever sizes it asks for now."""
+    names = book.source.names
     children = sum(re.fullmatch(r"Child\d+", name) is not None for name in names)
-    slots = genes.columns - 1
+    slots = names[layout.USER_BLOCK.name].columns - 1
     kinds = (
-        replace(kind, count_min=min(kind.count_min, slots), count_max=slots)
+        replace(
+            _with_places(kind, largest_listed(book.source, kind.name)),
+            count_min=min(kind.count_min, slots),
+            count_max=slots,
+        )
         for kind in book.space.kinds
     )
-    was = replace(
+    return replace(
         book,
         space=replace(book.space, kinds=tuple(kinds)),
         parameters=replace(book.parameters, children=max(2, children)),
         user_chromosome=None,
         what_if=None,
+        picked=None,
     )
-    any_grasp = random_chromosome(was.space, np.random.default_rng(0))
-    task = settle(was.space, was.parameters, any_grasp)
-    shown = was.shown_run()
-    result = _not_begun(task, shown.state if shown else None)
-    return _full_workbook(task, result, was, _now())
+
+
+def _with_places(kind: ElementKind, number: int) -> ElementKind:
+    """Return a kind with so many places at least, as it had when its lists were written."""
+    gone = np.zeros((max(0, number - kind.total), 3))
+    overlap = kind.overlap
+    if overlap is not None:
+        overlap = np.concatenate([overlap, np.full(len(gone), np.nan)])
+    footprints = np.vstack([kind.footprints_mm, gone])
+    return replace(kind, footprints_mm=footprints, overlap=overlap)
 
 
 def _full_workbook(task: Task, result: Result, book: Book, began: datetime) -> tuple[bytes, Filled]:
@@ -431,6 +471,7 @@ def _full_workbook(task: Task, result: Result, book: Book, began: datetime) -> t
         result,
         Origin(name, source.sha256, began, _now()),
         what_if=book.what_if,
+        picked=book.picked,
         stale_user=user if user and not is_usable(user, task.space) else None,
     )
 

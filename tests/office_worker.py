@@ -161,6 +161,11 @@ class Session:
             self._typed.append((cell, content(cell)))
             put(cell, value)
 
+    def paste(self, source, target):
+        """Copy cells and paste them whole, as a person does by Ctrl+C and Ctrl+V."""
+        area, first = self._area(source), self._area(target).getCellByPosition(0, 0)
+        first.Spreadsheet.copyRange(first.CellAddress, area.RangeAddress)
+
     def undo(self):
         """Put back what was typed over since the workbook was opened."""
         while self._typed:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -24,7 +25,7 @@ from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.calc_sheet import CalcBlock
-from grasp_xl.workbook.designs_sheet import PICK_NAME, PICK_ROW
+from grasp_xl.workbook.designs_sheet import GENE_COLUMN, PICK_NAME, PICK_ROW
 from grasp_xl.workbook.layout import (
     APPROXIMATION_COLUMN,
     FIRST_LOCATION_ROW,
@@ -586,13 +587,43 @@ def test_a_picked_design_is_loaded(opened, bracket):
     designs = int(opened.value("ValidDesignsFound"))
     for number in (1, designs // 2, designs):
         opened.enter({PICK_NAME: number})
-        (listed,) = opened.read(Area(VALID_DESIGNS, TABLE_ROW + number, 1, 1, 12))
+        (listed,) = opened.read(Area(VALID_DESIGNS, TABLE_ROW + number, GENE_COLUMN, 1, 12))
         assert opened.read(rows) == opened.read("WhatIf") == [listed[:6], listed[6:]]
         grasp = evaluate(task.space, task.rules, genes_of(opened.read("WhatIf")))
         assert missed(opened.read(GA_CELLS), PLAN.what_if, card_values(task, grasp)) == []
     for nonsense in (0, designs + 1, "abc", None):
         opened.enter({PICK_NAME: nonsense})
         assert opened.read(rows) == opened.read("WhatIf") == best
+
+
+def listed_genes(office: Office, number: int) -> list[list[CellValue]]:
+    """Return the two gene rows of a design, from the list."""
+    (row,) = office.read(Area(VALID_DESIGNS, TABLE_ROW + number, GENE_COLUMN, 1, 12))
+    return [row[:6], row[6:]]
+
+
+def judged_user_grasp(path: Path) -> Chromosome:
+    """Return the grasp that ``evaluate`` judges where no option names one."""
+    return commands.evaluate_grasp(path, Parameters(), (None, None))[1].chromosome
+
+
+@pytest.mark.parametrize("what", ["the picked rows", "the rows below the list"])
+def test_two_gene_rows_are_pasted_as_they_are(what, bracket, office, tmp_path):
+    """Pasted on the user-defined rows they show the design there, and are read as that; rows from below the list stay."""
+    book = Path(shutil.copy(bracket, tmp_path))
+    office.open(book)
+    number = int(office.value("ValidDesignsFound")) // 2
+    below = TABLE_ROW + 4 + int(office.value("ValidDesignsFound")) + 2 * number - 1
+    rows = {"the picked rows": (PICK_ROW + 2, 1), "the rows below the list": (below, GENE_COLUMN)}
+    wanted, first = listed_genes(office, number), listed_genes(office, 1)
+    assert wanted != first
+    office.enter({PICK_NAME: number})
+    office.paste(Area(VALID_DESIGNS, *rows[what], 2, 6), USER)
+    assert office.read(USER) == wanted
+    saved = office.save(tmp_path / "pasted.xlsx")
+    assert judged_user_grasp(saved) == genes_of(wanted)
+    office.enter({PICK_NAME: 1})
+    assert office.read(USER) == (first if what == "the picked rows" else wanted)
 
 
 @pytest.mark.parametrize("edit", EDITS)

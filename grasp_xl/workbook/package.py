@@ -397,8 +397,8 @@ def _check_workbook(package: Package, archive: zipfile.ZipFile) -> None:
     if "mimetype" in parts and b"opendocument" in archive.read("mimetype"):
         hint = 'open it in LibreOffice, choose File > Save As and the type "Excel 2007-365 (.xlsx)"'
         raise _refusal(package.name, "an OpenDocument spreadsheet (.ods)", A_WORKBOOK, hint)
-    workbook = _workbook_part(package.name, archive) if ARC_CONTENT_TYPES in parts else None
-    if workbook is None:
+    workbook = workbook_part(package.name, archive) if ARC_CONTENT_TYPES in parts else ""
+    if not workbook:
         hint = "if the workbook is inside this archive, take it out and name that"
         raise _refusal(package.name, "a zip archive that is no workbook", A_WORKBOOK, hint)
     if workbook not in parts:
@@ -414,7 +414,8 @@ def _check_workbook(package: Package, archive: zipfile.ZipFile) -> None:
             raise _damaged(package.name, f"no part {relation.target!r}")
 
 
-def _workbook_part(name: str, archive: zipfile.ZipFile) -> str | None:
+def workbook_part(name: str, archive: zipfile.ZipFile) -> str:
+    """Return the name of the part that lists the sheets; empty if there is none."""
     types = archive.read(ARC_CONTENT_TYPES)
     if _XLSB_TYPE in types:
         raise _refusal(name, "a binary workbook (.xlsb)", A_WORKBOOK, SAVE_IN_EXCEL)
@@ -422,7 +423,7 @@ def _workbook_part(name: str, archive: zipfile.ZipFile) -> str | None:
         if entry.get("ContentType") in _WORKBOOK_TYPES:
             part_name = entry.get("PartName")  # a default for a file ending has none
             return part_name.removeprefix("/") if part_name else ARC_WORKBOOK
-    return None
+    return ""
 
 
 def _unreadable_cells(sheet: ReadOnlyWorksheet) -> list[Problem]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -15,7 +16,8 @@ from grasp_xl.search.result import State, Trace, gene_columns, load_stream
 from grasp_xl.space import IntArray, OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout, run_log
-from grasp_xl.workbook.cells import Source, Value, shown
+from grasp_xl.workbook.calc_sheet import CalcBlock
+from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank, shown
 from grasp_xl.workbook.history_sheet import MAX_HISTORY
 from grasp_xl.workbook.layout import Area, Field
 from grasp_xl.workbook.reading_ga import find_block
@@ -25,6 +27,12 @@ GENERATIONS = "Generations asked for"
 DESIGNS_LISTED = "Valid designs listed"
 CHANGES_LISTED = "Changes listed in the history"
 """Labels of the run log."""
+
+GENERATION = "Generation"
+"""Header of the lists' column that says when."""
+
+LISTS = {layout.VALID_DESIGNS: layout.TABLE_ROW, layout.HISTORY: layout.HISTORY_ROW}
+"""Sheets of the lists with genes, and their header rows."""
 
 UNREADABLE = (ValueError, TypeError, IndexError, KeyError, OverflowError, RecursionError)
 """What reading a run raises where somebody changed it."""
@@ -124,7 +132,40 @@ def genes_as_they_stand(source: Source, block: Field) -> IntArray:
     area = find_block(source, block)
     if area is None:
         raise ValueError(f"no block {block.label!r}")
+    cells = (cell for row in cells_of(area) for cell in row)
+    if any(is_blank(source.value(cell)) and not source.blank(cell) for cell in cells):
+        raise ValueError("a formula without a stored value")
     return _genes(source, area)
+
+
+def largest_listed(source: Source, kind: str) -> int:
+    """Return the largest index of a kind among the genes of the lists, also one that is gone."""
+    found = [0]
+    for sheet, header_row in LISTS.items():
+        rows = source.grid(sheet).rows if sheet in source.sheets else {}
+        genes = re.compile(rf"{kind[0].upper()}\d+")
+        for column, label in enumerate(rows.get(header_row, ())):
+            if genes.fullmatch(str(label)):
+                cells = [row[column] for row in rows.values() if column < len(row)]
+                found += [int(cell) for cell in cells if isinstance(cell, int | float)]
+    return max(found)
+
+
+def written_children(source: Source, space: OptionSpace) -> tuple[Chromosome, ...]:
+    """Return the children as we wrote them, though somebody may have typed over their cards.
+
+    There are none of them where the helper sheet is not as it was.
+    """
+    with suppress(*UNREADABLE):
+        blocks = [CalcBlock(1 + n, space.gene_slots, area) for n, area in enumerate(_cards(source))]
+        return tuple(_checked(space, _genes(source, block.engine_genes)) for block in blocks)
+    return ()
+
+
+def _cards(source: Source) -> list[Area]:
+    """Return the genes of the child cards."""
+    names = [f"Child{number}" for number in range(1, 1 + len(source.names))]
+    return [source.names[name] for name in names if name in source.names]
 
 
 def _no_run(source: Source, found: str, hint: str) -> InputError:
@@ -133,15 +174,10 @@ def _no_run(source: Source, found: str, hint: str) -> InputError:
 
 
 def _saved_run(source: Source, space: OptionSpace, logged: dict[str, Value]) -> SavedRun:
-    children = [
-        source.names[name]
-        for number in range(1, 1 + len(source.names))
-        if (name := f"Child{number}") in source.names
-    ]
     return SavedRun(
         state=_state(source, space, logged),
         matrix=genes_as_they_stand(source, layout.MATRIX_BLOCK),
-        children=tuple(_checked(space, _genes(source, area)) for area in children),
+        children=tuple(_checked(space, _genes(source, area)) for area in _cards(source)),
     )
 
 
@@ -154,16 +190,16 @@ def _state(source: Source, space: OptionSpace, logged: dict[str, Value]) -> Stat
     best = _checked(space, np.array(json.loads(str(best_text)))) if best_text else None
     listed = logged[CHANGES_LISTED]
     changes = _trace(source, space, layout.HISTORY, layout.HISTORY_ROW, listed)
-    if _whole(listed) >= MAX_HISTORY:
+    if whole(listed) >= MAX_HISTORY:
         changes = _without_repeat(changes)
-    generation = _whole(named(run_log.GENERATIONS_DONE))
+    generation = whole(named(run_log.GENERATIONS_DONE))
     if generation and not len(changes):
         raise ValueError("an empty history")
     designs = _trace(source, space, layout.VALID_DESIGNS, layout.TABLE_ROW, logged[DESIGNS_LISTED])
     parent = _checked(space, genes_as_they_stand(source, layout.PARENT_BLOCK))
     return State(
         generation=generation,
-        evaluations=_whole(named(run_log.EVALUATIONS)),
+        evaluations=whole(named(run_log.EVALUATIONS)),
         parent=parent,
         random_state=random_state,
         random_chromosome=_checked(space, genes_as_they_stand(source, layout.RANDOM_BLOCK)),
@@ -171,8 +207,8 @@ def _state(source: Source, space: OptionSpace, logged: dict[str, Value]) -> Stat
         changes=changes,
         designs=designs,
         best=best,
-        improved_at=_whole(named(run_log.BEST_FOUND_AT)) if best else 0,
-        earlier_designs=_whole(named(run_log.DESIGNS_FOUND)) - len(designs),
+        improved_at=whole(named(run_log.BEST_FOUND_AT)) if best else 0,
+        earlier_designs=whole(named(run_log.DESIGNS_FOUND)) - len(designs),
     )
 
 
@@ -190,7 +226,7 @@ def _check(state: State, logged: dict[str, Value]) -> None:
     """
     changes, parent = state.changes, state.parent.genes
     n = len(changes)
-    gaps = _whole(logged[CHANGES_LISTED]) >= MAX_HISTORY
+    gaps = whole(logged[CHANGES_LISTED]) >= MAX_HISTORY
     repeated = state.best and n > 1 and np.array_equal(changes.genes[-2], parent)
     faults = {
         "a row of the designs is missing": len(state.designs) != logged[DESIGNS_LISTED],
@@ -206,14 +242,21 @@ def _check(state: State, logged: dict[str, Value]) -> None:
             raise ValueError(fault)
 
 
-def _whole(value: Value) -> int:
+def whole(value: Value) -> int:
+    """Return a cell's value as a whole number.
+
+    Raises
+    ------
+    ValueError
+        If it is none.
+    """
     if isinstance(value, bool) or not isinstance(value, int | float) or value != int(value):
         raise ValueError(f"{value!r} is no whole number")
     return int(value)
 
 
 def _gene(value: Value) -> int:
-    return BLANK_GENE if value is None else _whole(value)
+    return BLANK_GENE if value is None else whole(value)
 
 
 def _genes(source: Source, area: Area) -> IntArray:
@@ -243,10 +286,11 @@ def _trace(source: Source, space: OptionSpace, sheet: str, header_row: int, list
     header = [str(value) for value in grid.rows[header_row]]
     names = {labels.kind: labels.row_label for labels in layout.KINDS}
     columns = [header.index(names.get(name, name)) for name in gene_columns(space)]
+    when = header.index(GENERATION)
     generations, genes = [], []
-    for row in range(header_row + 1, header_row + 1 + _whole(listed)):
-        if grid.at(row, 0) is not None:
-            generations.append(_whole(grid.at(row, 0)))
+    for row in range(header_row + 1, header_row + 1 + whole(listed)):
+        if grid.at(row, when) is not None:
+            generations.append(whole(grid.at(row, when)))
             genes.append([_gene(grid.at(row, column)) for column in columns])
     shape = (len(genes), len(space.kinds), 1 + space.gene_slots)
     chromosomes = np.array(genes, dtype=np.int64).reshape(shape)

@@ -26,7 +26,7 @@ BEST_FOUND_AT = "BestFoundAt"
 STOP_REASON = "StopReason"
 DESIGNS_FOUND = "ValidDesignsFound"
 WHAT_IF_WRITTEN = "WhatIfWritten"
-"""What-if genes as we wrote them, by which a designer's typing is told apart."""
+"""Genes that our formulas on the What-if card show while no design is picked."""
 
 VALUE_WIDTH = 90
 """Width of the column of values: at least as many characters to a line."""
