@@ -28,6 +28,9 @@ DESIGNS_FOUND = "ValidDesignsFound"
 WHAT_IF_WRITTEN = "WhatIfWritten"
 """What-if genes as we wrote them, by which a designer's typing is told apart."""
 
+ASSIGNED_WRITTEN = "AssignedWritten"
+"""Benchmark that the program assigned, by which a designer's typing over it is told apart."""
+
 VALUE_WIDTH = 90
 """Width of the column of values: at least as many characters to a line."""
 
@@ -52,6 +55,7 @@ def write_run_log(
 ) -> None:
     """Write the sheet: a label, a value, and for some a defined name."""
     state, best = result.state, result.best
+    assigned = task.benchmark.chromosome if task.assigned else None
     interrupted = " (INTERRUPTED: best so far)" if result.stop_reason == "interrupted" else ""
     rows: list[tuple[str, CellValue | datetime, str]] = [
         ("Program", f"grasp_xl {__version__}", ""),
@@ -70,6 +74,7 @@ def write_run_log(
         ("Best found at generation", state.improved_at if best else None, BEST_FOUND_AT),
         ("Best grasp (genes)", genes_text(state.best), BEST_GRASP),
         ("What-if card as written (genes)", genes_text(what_if), WHAT_IF_WRITTEN),
+        ("Assigned benchmark as written (genes)", genes_text(assigned), ASSIGNED_WRITTEN),
         ("Valid designs found", state.earlier_designs + len(state.designs), DESIGNS_FOUND),
         ("Valid designs listed", min(len(state.designs), MAX_DESIGNS), ""),
         ("Changes listed in the history", min(len(state.changes), MAX_HISTORY), ""),
