@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar
-
-import numpy as np
 
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.errors import Problem
@@ -30,9 +26,6 @@ T = TypeVar("T")
 
 NEGLIGIBLE_GOAL = 1e-9
 """A defaulted goal below this drops its term (one element has no structure, say)."""
-
-HASHED_DECIMALS = 9
-"""Decimals of a coordinate (mm) that tell two option spaces apart."""
 
 NO_GOALS = (None, None, None, None)
 
@@ -114,42 +107,6 @@ class Task:
     benchmark: Grasp
     assigned: bool
     warnings: tuple[Problem, ...]
-
-    @property
-    def inputs_hash(self) -> str:
-        """Hash of everything that a run's course depends on, for ``--continue``."""
-        digest = hashlib.sha256()
-        for array in (
-            *(kind.footprints_mm for kind in self.space.kinds),
-            self.space.part.centroid_mm,
-            self.space.approximation_polygon_mm,
-            self.benchmark.chromosome.genes,
-        ):
-            # Some programs drop the last digits of numbers near zero when they save.
-            places = np.round(array, HASHED_DECIMALS) + 0.0
-            digest.update(str(places.shape).encode() + np.ascontiguousarray(places).tobytes())
-        numbers = [
-            self.space.part.mass_g,
-            self.space.scale_factor,
-            *(
-                (kind.force_n, kind.price, kind.count_min, kind.count_max)
-                for kind in self.space.kinds
-            ),
-            self.rules.goals.base,
-            sorted(self.rules.goals.dropped),
-            self.rules.requirements.fos,
-            self.rules.requirements.clearance_mm,
-            self.rules.requirements.density_ratio,
-            self.rules.requirements.moment_arm,
-            self.rules.criterion.name,
-            self.settings.one_in,
-            self.settings.children,
-            self.settings.elitism,
-            self.settings.user_start,
-            self.settings.seed,
-        ]
-        digest.update(json.dumps(numbers).encode())
-        return digest.hexdigest()
 
 
 def settle(space: OptionSpace, said: Parameters, user_chromosome: Chromosome | None) -> Task:

@@ -13,6 +13,7 @@ from grasp_xl.space import OptionSpace
 from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout, run_log
 from grasp_xl.workbook.cells import Source, cells_of
+from grasp_xl.workbook.inputs import genes_text
 from grasp_xl.workbook.layout import Field
 from grasp_xl.workbook.reading import open_source, read_option_space
 from grasp_xl.workbook.reading_ga import (
@@ -27,7 +28,6 @@ from grasp_xl.workbook.reading_run import (
     read_saved_run,
     shown_run,
 )
-from grasp_xl.workbook.run_log import genes_text
 from grasp_xl.workbook.stamp import is_untouched
 
 
@@ -124,7 +124,7 @@ def _book(source: Source, *, stale_genes: bool) -> Book:
 def _is_assigned(source: Source) -> bool:
     """Tell whether the program chose the user-defined chromosome, and nobody typed over it."""
     area = find_block(source, layout.USER_BLOCK)
-    written = source.names.get(run_log.ASSIGNED_WRITTEN)
+    written = source.names.get(run_log.BENCHMARK_WRITTEN)
     if area is None or written is None or min(area.row - 2, area.column - 1) < 0:
         return False
     if layout.ASSIGNED_MARK not in str(source.value(area.cell(-2, -1))):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -15,13 +14,12 @@ from grasp_xl.search.result import State, Trace, gene_columns, load_stream
 from grasp_xl.space import IntArray, OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout, run_log
-from grasp_xl.workbook.cells import Source, Value, shown
+from grasp_xl.workbook.cells import Source, Value
 from grasp_xl.workbook.history_sheet import MAX_HISTORY
+from grasp_xl.workbook.inputs import changed_inputs
 from grasp_xl.workbook.layout import Area, Field
 from grasp_xl.workbook.reading_ga import find_block
 
-INPUTS_HASH = "Hash of the inputs used"
-GENERATIONS = "Generations asked for"
 DESIGNS_LISTED = "Valid designs listed"
 CHANGES_LISTED = "Changes listed in the history"
 """Labels of the run log."""
@@ -62,28 +60,13 @@ def refuse_other_inputs(source: Source, task: Task) -> None:
     Raises
     ------
     InputError
-        Naming the parameters that differ.
+        Naming the inputs that differ.
     """
     logged = logged_values(source)
-    if logged and logged.get(INPUTS_HASH) != task.inputs_hash:
-        now = (("Seed", task.settings.seed), *run_log.parameter_rows(task))
-        told = [
-            f"{label} {_told(value)}, not {_told(logged.get(label))}"
-            for label, value in now
-            if label != GENERATIONS and not _alike(value, logged.get(label))
-        ]
-        found = f"inputs that changed since its run: {'; '.join(told) or 'the option space'}"
+    changed = changed_inputs(task, logged) if logged else []
+    if changed:
+        found = f"inputs that changed since its run: {'; '.join(changed)}"
         raise _no_run(source, found, "undo the changes, or run it without --continue")
-
-
-def _told(value: Value) -> str:
-    return shown(value) if isinstance(value, int | float) else str(value)
-
-
-def _alike(value: Value, logged: Value) -> bool:
-    if isinstance(value, float) and isinstance(logged, int | float):
-        return math.isclose(value, logged, rel_tol=1e-12)
-    return value == logged
 
 
 def read_saved_run(source: Source, space: OptionSpace) -> SavedRun:
