@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from grasp_xl import __version__
-from grasp_xl.errors import GraspError, InfeasibleError, InputError, OutputError, UsageError
+from grasp_xl.errors import GraspError, InputError, OutputError, UsageError
 from grasp_xl.rules import TERMS, Criterion, MomentArm
 from grasp_xl.rules import moment_arm as parse_arm
 
@@ -386,7 +386,7 @@ def check(
     show.compile_notice(quiet=quiet)
     try:
         checked = commands.check(file, options)
-    except (InputError, InfeasibleError) as error:
+    except InputError as error:
         if not as_json:
             raise
         _print_json(reporting.failed_check_json(error))
@@ -397,6 +397,10 @@ def check(
         _print_json(reporting.check_json(checked))
     elif not quiet:
         show.check(checked)
+    if checked.obstacle and as_json:
+        raise typer.Exit(checked.obstacle.exit_code)
+    if checked.obstacle:
+        raise checked.obstacle
 
 
 @app.command()

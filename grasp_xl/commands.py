@@ -12,17 +12,17 @@ from pathlib import Path
 import numpy as np
 
 from grasp_xl.chromosome import Chromosome, from_active, index_faults
-from grasp_xl.errors import InputError, Problem, UsageError
+from grasp_xl.errors import InfeasibleError, InputError, Problem, UsageError
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Terms
-from grasp_xl.search.feasibility import any_feasible, max_fos
+from grasp_xl.search.feasibility import any_feasible, lifting_counts, max_fos
 from grasp_xl.search.floors import floors, search_space
 from grasp_xl.search.genetic import OnProgress, search
 from grasp_xl.search.mutation import random_chromosome
 from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import Generations, StopRule
 from grasp_xl.space import OptionSpace
-from grasp_xl.task import Parameters, Task, settle
+from grasp_xl.task import Parameters, Task, settle, settle_requirements
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book, read_previous
 from grasp_xl.workbook.carrying import carried, is_usable
@@ -68,13 +68,23 @@ class Output:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Checked:
-    """What ``check`` says of a readable file."""
+    """What ``check`` says of a readable file.
+
+    Parameters
+    ----------
+    space, warnings, search_space, max_fos
+    floors : Terms or None
+        None where no counts meet FoS.
+    obstacle : InfeasibleError or None
+        Why no grasp meets FoS and clearance.
+    """
 
     space: OptionSpace
     warnings: tuple[Problem, ...]
     search_space: int
     max_fos: float
-    floors: Terms
+    floors: Terms | None
+    obstacle: InfeasibleError | None
 
 
 def prepare(book: Book, options: Parameters, grasp: Active = (None, None)) -> Task:
@@ -133,13 +143,18 @@ def check(path: Path, options: Parameters) -> Checked:
     ------
     InputError
         With every problem found.
-    InfeasibleError
-        If no grasp meets FoS and clearance.
     """
-    task = prepare(read_book(path), options)
-    refuse_infeasible(task)
-    space, need = task.space, task.rules.requirements
-    return Checked(space, task.warnings, search_space(space), max_fos(space), floors(space, need))
+    book = read_book(path)
+    space, warnings, obstacle = book.space, book.warnings, None
+    try:
+        task = prepare(book, options)
+        refuse_infeasible(task)
+        warnings = task.warnings
+    except InfeasibleError as error:
+        obstacle = error
+    need = settle_requirements(space, options.over(book.parameters))
+    least = floors(space, need) if lifting_counts(space, need) else None
+    return Checked(space, warnings, search_space(space), max_fos(space), least, obstacle)
 
 
 def evaluate_grasp(path: Path, options: Parameters, grasp: Active) -> tuple[Task, Grasp]:

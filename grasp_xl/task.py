@@ -118,12 +118,7 @@ def settle(space: OptionSpace, said: Parameters, user_chromosome: Chromosome | N
         If no grasp can serve as the benchmark.
     """
     known = said.over(DEFAULTS)
-    requirements = Requirements(
-        fos=_known(known.fos),
-        clearance_mm=known.clearance_mm or space.largest_diameter_mm or DEFAULT_CLEARANCE_MM,
-        density_ratio=_known(known.density_ratio),
-        moment_arm=_known(known.moment_arm),
-    )
+    requirements = settle_requirements(space, known)
     chromosome = user_chromosome or assigned_benchmark(space, requirements)
     unscaled = Rules(Goals(Terms(1.0, 1.0, 1.0, 1.0)), requirements)
     benchmark = evaluate(space, unscaled, chromosome)
@@ -154,6 +149,17 @@ def settle(space: OptionSpace, said: Parameters, user_chromosome: Chromosome | N
         benchmark=evaluate(space, rules, chromosome),
         assigned=user_chromosome is None,
         warnings=tuple(warnings),
+    )
+
+
+def settle_requirements(space: OptionSpace, said: Parameters) -> Requirements:
+    """Return what every grasp must meet, defaults filled in."""
+    known = said.over(DEFAULTS)
+    return Requirements(
+        fos=_known(known.fos),
+        clearance_mm=known.clearance_mm or space.largest_diameter_mm or DEFAULT_CLEARANCE_MM,
+        density_ratio=_known(known.density_ratio),
+        moment_arm=_known(known.moment_arm),
     )
 
 

@@ -179,6 +179,45 @@ def test_json_of_check_has_the_keys_of_the_specification(gx: Any, export: Path) 
     assert (told.json["cups"], told.json["magnets"]) == (6, 6)
 
 
+@pytest.mark.parametrize(
+    ("change", "floors"), [({"B5": 200_000}, False), ({}, True)], ids=["heavy", "close"]
+)
+def test_check_shows_what_is_known_of_a_space_without_a_grasp(
+    gx: Any,
+    tmp_path: Path,
+    change: dict[str, Any],
+    floors: bool,  # noqa: FBT001
+) -> None:
+    """Counts, weight and the reachable FoS stand beside the error, which keeps its exit code."""
+    export = tmp_path / "none.xlsx"
+    tiny_export(export, change)
+    options = () if "B5" in change else ("--clearance", "500")
+    told = gx("check", export, "--json", *options)
+    assert told.code == 4
+    assert set(told.json) == CHECK_KEYS | ERROR_KEYS
+    assert not told.json["ok"]
+    assert told.json["problems"][0]["found"] == told.json["error"]
+    known = {"cups": 6, "magnets": 6, "search_space": 62 * 62}
+    assert {key: told.json[key] for key in known} == known
+    assert told.json["max_fos"] * told.json["weight_n"] == pytest.approx(5 * (69 + 130))
+    assert bool(told.json["floors"]) == floors
+    plain = gx("check", export, *options)
+    assert plain.code == 4
+    assert "suction: 6 places" in plain.out
+    assert "No problem" not in plain.out
+    assert plain.err.startswith("No grasp")
+
+
+def test_a_workbook_can_be_made_of_a_space_without_a_grasp(gx: Any, tmp_path: Path) -> None:
+    """With a grasp of the designer's there is a benchmark, so that a Max. can be raised in it."""
+    export = tmp_path / "heavy.xlsx"
+    tiny_export(export, {"B5": 200_000})
+    book = tmp_path / "book.xlsx"
+    assert gx("new", export, "-o", book).code == 4
+    assert gx("new", export, "-o", book, "--cups", "1,4", "--magnets", "3").code == 0
+    assert gx("evaluate", book).code == 0
+
+
 def test_check_lists_every_problem(gx: Any, tmp_path: Path) -> None:
     export = tmp_path / "wrong.xlsx"
     tiny_export(export, {"B5": -1, "D6": "here", "L1": 2})
