@@ -268,7 +268,7 @@ def run(
     if not output.in_place:
         refuse_edited(output.path, force=output.force)
     if output.history:
-        check_place(output.history, ".csv", force=output.force)
+        check_place(output.history, ".csv", force=output.force, option="--history")
     book = read_book(path)
     task = prepare(book, options, grasp)
     saved = _saved_run(book, task) if go_on else None

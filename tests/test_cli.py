@@ -19,7 +19,7 @@ import typer
 from bad_workbooks import tiny_export
 from python_calamine import CalamineWorkbook
 
-from grasp_xl import __version__, cli, commands
+from grasp_xl import __main__, __version__, cli, commands
 from grasp_xl.search import stop
 from grasp_xl.workbook import cells, reading_ga
 
@@ -322,6 +322,48 @@ def test_a_grasp_below_the_constraints_is_shown_nevertheless(gx: Any, bracket: P
     told = gx("evaluate", bracket, "--fos", "8", "--json")
     assert told.code == 0
     assert told.json["feasible"] is False
+
+
+@pytest.mark.parametrize(
+    ("words", "hint"),
+    [
+        (("-o", "folder.xlsx"), "Name another file with -o."),
+        (("--history", "folder.csv"), "Name another file with --history."),
+    ],
+)
+def test_a_folder_is_refused_with_the_option_that_names_it(
+    gx: Any, bracket: Path, words: tuple[str, str], hint: str
+) -> None:
+    option, name = words
+    folder = bracket.with_name(name)
+    folder.mkdir()
+    told = gx("run", bracket, option, folder)
+    assert (told.code, told.err.splitlines()[1]) == (3, hint)
+
+
+@pytest.mark.parametrize("option", ["-o", "--history"])
+def test_an_empty_file_name_is_wrong_usage(gx: Any, bracket: Path, option: str) -> None:
+    told = gx("run", bracket, option, "")
+    assert (told.code, told.err.splitlines()[0]) == (
+        2,
+        f"{option}: found '', expected the name of a file.",
+    )
+
+
+def test_ctrl_c_while_the_program_loads_is_exit_code_130(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The first moments are imports, which nobody wants to see."""
+
+    class Loading:
+        def __getattr__(self, name: str) -> None:
+            raise KeyboardInterrupt
+
+    monkeypatch.setitem(sys.modules, "grasp_xl.cli", Loading())
+    with pytest.raises(SystemExit) as end:
+        __main__.entry()
+    assert end.value.code == 130
+    assert capsys.readouterr().err == "Interrupted; nothing was written.\n"
 
 
 def test_ctrl_c_before_a_search_is_exit_code_130(

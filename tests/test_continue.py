@@ -375,6 +375,16 @@ def write(name: str, value: object) -> Callable[[openpyxl.Workbook], None]:
         write("MutationMatrix", 0.5),
         write(run_log.GENERATIONS_DONE, "many"),
         write(run_log.GENERATIONS_DONE, 1.5),
+        write(run_log.GENERATIONS_DONE, -5),
+        write(run_log.GENERATIONS_DONE, 10**10),
+        write(run_log.EVALUATIONS, 1e300),
+        write(run_log.EVALUATIONS, -1),
+        write(run_log.BEST_FOUND_AT, -3),
+        write(run_log.BEST_FOUND_AT, 61),
+        write(run_log.DESIGNS_FOUND, 0),
+        lambda opened: setattr(opened["Valid Designs"]["A9"], "value", -3),
+        lambda opened: setattr(opened["History"]["A4"], "value", 1e300),
+        lambda opened: opened.remove(opened["History"]),
         write(run_log.EVALUATIONS, None),
         write(run_log.BEST_GRASP, "[[1, 2], [3]]"),
         write(run_log.BEST_GRASP, "[[9, 1, 2, 3, 4, 5], [1, 2, 3, 4, 5, 6]]"),
@@ -390,10 +400,15 @@ def write(name: str, value: object) -> Callable[[openpyxl.Workbook], None]:
     ],
 )
 def test_a_run_that_was_tampered_with_is_refused(
-    part_way: Path, tmp_path: Path, damage: Callable[[openpyxl.Workbook], object]
+    part_way: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    damage: Callable[[openpyxl.Workbook], object],
 ) -> None:
-    """Each in a sentence: a list that was sorted or cut, genes that are none, no random state."""
+    """Each in a plain sentence: a list that was sorted or cut, no random state, negative numbers."""
     book = Path(shutil.copy(part_way, tmp_path))
     edit(book, damage)
     assert run(book, "--continue", "-o", tmp_path / "out.xlsx") == 3
     assert files(tmp_path) == [book.name]
+    told = capsys.readouterr().err
+    assert not [raw for raw in ("Worksheet", "array", "Expecting", "None") if raw in told]
