@@ -272,6 +272,7 @@ def run(
     book = read_book(path)
     task = prepare(book, options, grasp)
     saved = _saved_run(book, task) if go_on else None
+    task = replace(task, warnings=(*task.warnings, *(_gaps(saved.state) if saved else ())))
     refuse_infeasible(task)
     if output.in_place:
         _refuse_losses(output, book)
@@ -290,6 +291,15 @@ def run(
     if output.history:
         save(result.history().to_csv(index=False).encode(), output.history)
     return task, result, time.perf_counter() - clock
+
+
+def _gaps(state: State) -> list[Problem]:
+    """Warn where the workbook could not list the whole history of its run."""
+    if state.complete_from == 1:
+        return []
+    found = f"the changes from generation {state.complete_from:,} on"
+    hint = "the workbook has no room for the earlier ones, so a --history file begins there, too"
+    return [Problem(layout.HISTORY, found, "those from generation 1 on", hint)]
 
 
 def _saved_run(book: Book, task: Task) -> SavedRun:

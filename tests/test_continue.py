@@ -104,6 +104,14 @@ def cell_of(opened: openpyxl.Workbook, name: str, row: int = 0, column: int = 0)
     return opened[sheet.strip("'")][cells.split(":")[0]].offset(row, column)
 
 
+def small_lists(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give the sheets room for 40 changes and 3 designs only."""
+    for module in ("history_sheet", "run_log", "reading_run"):
+        monkeypatch.setattr(f"grasp_xl.workbook.{module}.MAX_HISTORY", 40)
+    for module in ("designs_sheet", "run_log"):
+        monkeypatch.setattr(f"grasp_xl.workbook.{module}.MAX_DESIGNS", 3)
+
+
 # --- the same course ---
 
 
@@ -126,17 +134,43 @@ def test_splits_change_nothing_without_elitism(
     assert content(parts) == content(at_once(export, 300, *options))
 
 
+@pytest.mark.parametrize("seed", ["3", "4", "5"])
 def test_lists_too_long_for_their_sheets_go_on(
-    export: Path, monkeypatch: pytest.MonkeyPatch
+    export: Path, monkeypatch: pytest.MonkeyPatch, seed: str
 ) -> None:
     """The newest rows are listed, and what the fitness table needs."""
-    for module in ("history_sheet", "run_log", "reading_run"):
-        monkeypatch.setattr(f"grasp_xl.workbook.{module}.MAX_HISTORY", 40)
-    for module in ("designs_sheet", "run_log"):
-        monkeypatch.setattr(f"grasp_xl.workbook.{module}.MAX_DESIGNS", 3)
-    options = ("--no-elitism", "--seed", "3", "--goals", "1000,90000,900,9000")
-    parts = in_parts(export, [90, 150, 1200], *options)
-    assert content(parts) == content(at_once(export, 1200, *options))
+    small_lists(monkeypatch)
+    options = ("--no-elitism", "--seed", seed, "--goals", "1000,90000,900,9000")
+    parts, whole = (
+        content(book)
+        for book in (in_parts(export, [90, 150, 1200], *options), at_once(export, 1200, *options))
+    )
+    warned = [row for row in parts["Run Log"] if row[0] == "Warning"]
+    parts["Run Log"] = [row for row in parts["Run Log"] if row not in warned]
+    assert ["History: found the changes from generation" in row[1] for row in warned] == [True]
+    assert parts == whole
+
+
+def test_a_history_that_the_workbook_could_not_list_is_a_warning(
+    export: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It names the generation from which the CSV has every change."""
+    small_lists(monkeypatch)
+    options = ("--no-elitism", "--goals", "1000,90000,900,9000")
+    first = export.with_name("first.xlsx")
+    words = ("--generations", 300, "--history", export.with_name("first.csv"), *options)
+    assert run(export, "-o", first, *words) == 0
+    second = ("--continue", "--generations", "310", "--history", export.with_name("second.csv"))
+    assert cli.main(["run", str(first), *map(str, second)]) == 0
+    told = capsys.readouterr().err
+    begin = int(told.partition("from generation ")[2].split()[0])
+    before, after = (
+        {int(line.split(",")[0]) for line in file.read_text().splitlines()[1:]}
+        for file in (export.with_name("first.csv"), export.with_name("second.csv"))
+    )
+    assert "a --history file begins there, too" in told
+    assert {g for g in before if g >= begin} - {300} <= after
+    assert max(g for g in before if g < begin) not in after
 
 
 def test_a_run_with_options_goes_on_without_them(export: Path) -> None:

@@ -182,6 +182,7 @@ def _state(source: Source, space: OptionSpace, logged: dict[str, Value]) -> Stat
         best=best,
         improved_at=number(run_log.BEST_FOUND_AT) if best else 0,
         earlier_designs=number(run_log.DESIGNS_FOUND) - len(designs),
+        complete_from=number(run_log.HISTORY_FROM),
     )
 
 
@@ -199,7 +200,7 @@ def _check(state: State, logged: dict[str, Value]) -> None:
     """
     changes, parent, generation = state.changes, state.parent.genes, state.generation
     n = len(changes)
-    gaps = _whole(logged[CHANGES_LISTED]) >= MAX_HISTORY
+    gaps = state.complete_from > 1
     repeated = state.best and n > 1 and np.array_equal(changes.genes[-2], parent)
     faults = {
         "a row of the designs is missing": len(state.designs) != logged[DESIGNS_LISTED],
@@ -219,6 +220,9 @@ def _check(state: State, logged: dict[str, Value]) -> None:
         ),
         "a best grasp of a generation that was not done": not (
             0 <= state.improved_at <= generation
+        ),
+        "a history from a generation that it does not have": not (
+            state.complete_from == 1 or state.complete_from in changes.generation
         ),
         "less valid designs found than listed": state.earlier_designs < 0,
     }

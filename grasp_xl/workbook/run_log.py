@@ -11,7 +11,7 @@ from grasp_xl.chromosome import Chromosome
 from grasp_xl.search.result import Result
 from grasp_xl.task import Task
 from grasp_xl.workbook.designs_sheet import MAX_DESIGNS
-from grasp_xl.workbook.history_sheet import MAX_HISTORY
+from grasp_xl.workbook.history_sheet import MAX_HISTORY, listed_from
 from grasp_xl.workbook.inputs import (
     BENCHMARK_GENES,
     genes_text,
@@ -31,6 +31,7 @@ BEST_GRASP = "BestGrasp"
 BEST_FOUND_AT = "BestFoundAt"
 STOP_REASON = "StopReason"
 DESIGNS_FOUND = "ValidDesignsFound"
+HISTORY_FROM = "HistoryFrom"
 WHAT_IF_WRITTEN = "WhatIfWritten"
 """What-if genes as we wrote them, by which a designer's typing is told apart."""
 
@@ -78,6 +79,7 @@ def write_run_log(
         ("Valid designs found", state.earlier_designs + len(state.designs), DESIGNS_FOUND),
         ("Valid designs listed", min(len(state.designs), MAX_DESIGNS), ""),
         ("Changes listed in the history", min(len(state.changes), MAX_HISTORY), ""),
+        ("History lists all from generation", listed_from(result), HISTORY_FROM),
         ("State of the random stream", state.random_state, RANDOM_STATE),
         ("Exact bound", None, ""),
         ("Exact gap", None, ""),
