@@ -127,6 +127,17 @@ def _start(text: str) -> str:
     raise _refused("--start", text, " or ".join(STARTS))
 
 
+def _file(option: str) -> Callable[[str], Path]:
+    """Make a parser of file names; an empty one would mean the folder."""
+
+    def parse(text: str) -> Path:
+        if text.strip():
+            return Path(text)
+        raise _refused(option, text, "the name of a file")
+
+    return parse
+
+
 def _above_0(option: str) -> Callable[[str], float]:
     return _number(option, f"a number above 0, to {MOST:g}", least=LEAST_ABOVE_0)
 
@@ -138,10 +149,19 @@ def _option(name: str, parser: Callable[[str], Any], metavar: str, told: str) ->
 File = Annotated[
     Path, typer.Argument(help="Workbook: an exported option-space sheet, or a full workbook.")
 ]
-Book = Annotated[Path, typer.Option("-o", "--output", help="Workbook to write.")]
+Book = Annotated[
+    Path,
+    typer.Option("-o", "--output", parser=_file("-o"), metavar="FILE", help="Workbook to write."),
+]
 MaybeBook = Annotated[
     Path | None,
-    typer.Option("-o", "--output", help="Workbook to write (default NAME-result.xlsx)."),
+    typer.Option(
+        "-o",
+        "--output",
+        parser=_file("-o"),
+        metavar="FILE",
+        help="Workbook to write (default NAME-result.xlsx).",
+    ),
 ]
 Cups = Annotated[
     Sequence[int] | None,
@@ -275,7 +295,12 @@ GoOn = Annotated[
 ]
 History = Annotated[
     Path | None,
-    typer.Option("--history", help="Write every change of the fittest to this CSV file."),
+    _option(
+        "--history",
+        _file("--history"),
+        "FILE",
+        "Write every change of the fittest to this CSV file.",
+    ),
 ]
 InPlace = Annotated[bool, typer.Option("--in-place", help="Replace the input workbook.")]
 Force = Annotated[
@@ -412,7 +437,7 @@ def check(
     show.compile_notice(quiet=quiet)
     try:
         checked = commands.check(file, options)
-    except (InputError, InfeasibleError) as error:
+    except InputError as error:
         if not as_json:
             raise
         _print_json(reporting.failed_check_json(error))
@@ -423,6 +448,10 @@ def check(
         _print_json(reporting.check_json(checked))
     elif not quiet:
         show.check(checked)
+    if checked.obstacle and as_json:
+        raise typer.Exit(checked.obstacle.exit_code)
+    if checked.obstacle:
+        raise checked.obstacle
 
 
 @app.command()

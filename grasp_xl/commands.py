@@ -18,7 +18,7 @@ from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Terms
 from grasp_xl.search.exact import ExactSettings, OnBound, Proof
 from grasp_xl.search.exact import solve as prove
-from grasp_xl.search.feasibility import max_fos
+from grasp_xl.search.feasibility import lifting_counts, max_fos
 from grasp_xl.search.floors import floors, proven_floors, search_space
 from grasp_xl.search.genetic import OnProgress, search
 from grasp_xl.search.mutation import random_chromosome
@@ -28,7 +28,7 @@ from grasp_xl.search.stop import Generations, Interrupt, StopRule
 from grasp_xl.search.unmet_goals import floor_warnings, why_none_meets_all
 from grasp_xl.search.warm import load_exact_search
 from grasp_xl.space import ElementKind, OptionSpace
-from grasp_xl.task import Parameters, Task, settle
+from grasp_xl.task import Parameters, Task, settle, settle_requirements
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book, read_previous
 from grasp_xl.workbook.carrying import carried, is_usable
@@ -81,13 +81,23 @@ class Output:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Checked:
-    """What ``check`` says of a readable file."""
+    """What ``check`` says of a readable file.
+
+    Parameters
+    ----------
+    space, warnings, search_space, max_fos
+    floors : Terms or None
+        None where no counts meet FoS.
+    obstacle : InfeasibleError or None
+        Why no grasp meets FoS and clearance.
+    """
 
     space: OptionSpace
     warnings: tuple[Problem, ...]
     search_space: int
     max_fos: float
-    floors: Terms
+    floors: Terms | None
+    obstacle: InfeasibleError | None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -173,14 +183,18 @@ def check(path: Path, options: Parameters) -> Checked:
     ------
     InputError
         With every problem found.
-    InfeasibleError
-        If no grasp meets FoS and clearance.
     """
-    task = prepare(read_book(path), options)
-    refuse_infeasible(task)
-    space, least = task.space, floors(task.space, task.rules.requirements)
-    task = _with_floor_warnings(task, least)
-    return Checked(space, task.warnings, search_space(space), max_fos(space), least)
+    book = read_book(path)
+    space, warnings, obstacle = book.space, book.warnings, None
+    need = settle_requirements(space, options.over(book.parameters))
+    least = floors(space, need) if lifting_counts(space, need) else None
+    try:
+        task = prepare(book, options)
+        refuse_infeasible(task)
+        warnings = (_with_floor_warnings(task, least) if least else task).warnings
+    except InfeasibleError as error:
+        obstacle = error
+    return Checked(space, warnings, search_space(space), max_fos(space), least, obstacle)
 
 
 def _with_floor_warnings(task: Task, least: Terms) -> Task:
@@ -298,10 +312,11 @@ def run(
     if not output.in_place:
         refuse_edited(output.path, force=output.force)
     if output.history:
-        check_place(output.history, ".csv", force=output.force)
+        check_place(output.history, ".csv", force=output.force, option="--history")
     book = read_book(path)
     task = prepare(book, options, grasp)
     saved = _saved_run(book, task) if go_on else None
+    task = replace(task, warnings=(*task.warnings, *(_gaps(saved.state) if saved else ())))
     refuse_infeasible(task)
     task = _with_floor_warnings(task, floors(task.space, task.rules.requirements))
     if output.in_place:
@@ -321,6 +336,15 @@ def run(
     if output.history:
         save(result.history().to_csv(index=False).encode(), output.history)
     return task, result, time.perf_counter() - clock
+
+
+def _gaps(state: State) -> list[Problem]:
+    """Warn where the workbook could not list the whole history of its run."""
+    if state.complete_from == 1:
+        return []
+    found = f"the changes from generation {state.complete_from:,} on"
+    hint = "the workbook has no room for the earlier ones, so a --history file begins there, too"
+    return [Problem(layout.HISTORY, found, "those from generation 1 on", hint)]
 
 
 def _saved_run(book: Book, task: Task) -> SavedRun:

@@ -102,35 +102,34 @@ def new_json(task: Task, output: str) -> Json:
 
 
 def check_json(checked: Checked) -> Json:
-    """Return what ``check`` found in a sound file."""
+    """Return what ``check`` found in a readable file."""
     cups, magnets = checked.space.kinds
+    error = checked.obstacle
     return {
-        "ok": True,
-        "problems": [],
+        "ok": error is None,
+        **(error_json(error) if error else {}),
+        "problems": problems_json([_as_problem(error)] if error else []),
         "warnings": problems_json(checked.warnings),
         "cups": cups.total,
         "magnets": magnets.total,
         "search_space": checked.search_space,
         "weight_n": checked.space.part.weight_n,
         "max_fos": checked.max_fos,
-        "floors": checked.floors._asdict(),
+        "floors": checked.floors._asdict() if checked.floors else None,
     }
 
 
-def failed_check_json(error: GraspError) -> Json:
+def _as_problem(error: InfeasibleError) -> Problem:
+    return Problem(error.where, error.message, "a grasp that meets all constraints", error.hint)
+
+
+def failed_check_json(error: InputError) -> Json:
     """Return what ``check`` found in a file that cannot be used."""
-    problems = (
-        error.problems
-        if isinstance(error, InputError)
-        else (
-            Problem(error.where, error.message, "a grasp that meets all constraints", error.hint),
-        )
-    )
     unknown = ("cups", "magnets", "search_space", "weight_n", "max_fos", "floors")
     return {
         "ok": False,
         **error_json(error),
-        "problems": problems_json(problems),
+        "problems": problems_json(error.problems),
         "warnings": [],
         **dict.fromkeys(unknown),
     }

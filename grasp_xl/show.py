@@ -265,6 +265,7 @@ def check(checked: Checked) -> None:
     line(f"part: {space.part.mass_g:,.6g} g, {space.part.weight_n:,.6g} N")
     line(f"different grasps: {Decimal(checked.search_space):.4e}")
     line(f"FoS of the most elements: {checked.max_fos:.4g}")
-    for term, floor in checked.floors._asdict().items():
+    for term, floor in checked.floors._asdict().items() if checked.floors else ():
         line(f"no {term} below {floor:,.6g} {UNITS[term]}")
-    line("No problem found.")
+    if not checked.obstacle:
+        line("No problem found.")

@@ -21,7 +21,7 @@ import typer
 from bad_workbooks import tiny_export
 from python_calamine import CalamineWorkbook
 
-from grasp_xl import __version__, cli, commands, show
+from grasp_xl import __main__, __version__, cli, commands, show
 from grasp_xl.search import stop
 from grasp_xl.workbook import cells, reading_ga
 
@@ -198,6 +198,45 @@ def test_json_of_solve_has_the_keys_of_the_specification(gx: Any, bracket: Path)
     assert files(bracket.parent) == [bracket.name]
 
 
+@pytest.mark.parametrize(
+    ("change", "floors"), [({"B5": 200_000}, False), ({}, True)], ids=["heavy", "close"]
+)
+def test_check_shows_what_is_known_of_a_space_without_a_grasp(
+    gx: Any,
+    tmp_path: Path,
+    change: dict[str, Any],
+    floors: bool,  # noqa: FBT001
+) -> None:
+    """Counts, weight and the reachable FoS stand beside the error, which keeps its exit code."""
+    export = tmp_path / "none.xlsx"
+    tiny_export(export, change)
+    options = () if "B5" in change else ("--clearance", "500")
+    told = gx("check", export, "--json", *options)
+    assert told.code == 4
+    assert set(told.json) == CHECK_KEYS | ERROR_KEYS
+    assert not told.json["ok"]
+    assert told.json["problems"][0]["found"] == told.json["error"]
+    known = {"cups": 6, "magnets": 6, "search_space": 62 * 62}
+    assert {key: told.json[key] for key in known} == known
+    assert told.json["max_fos"] * told.json["weight_n"] == pytest.approx(5 * (69 + 130))
+    assert bool(told.json["floors"]) == floors
+    plain = gx("check", export, *options)
+    assert plain.code == 4
+    assert "suction: 6 places" in plain.out
+    assert "No problem" not in plain.out
+    assert plain.err.startswith("No grasp")
+
+
+def test_a_workbook_can_be_made_of_a_space_without_a_grasp(gx: Any, tmp_path: Path) -> None:
+    """With a grasp of the designer's there is a benchmark, so that a Max. can be raised in it."""
+    export = tmp_path / "heavy.xlsx"
+    tiny_export(export, {"B5": 200_000})
+    book = tmp_path / "book.xlsx"
+    assert gx("new", export, "-o", book).code == 4
+    assert gx("new", export, "-o", book, "--cups", "1,4", "--magnets", "3").code == 0
+    assert gx("evaluate", book).code == 0
+
+
 def test_check_lists_every_problem(gx: Any, tmp_path: Path) -> None:
     export = tmp_path / "wrong.xlsx"
     tiny_export(export, {"B5": -1, "D6": "here", "L1": 2})
@@ -307,6 +346,48 @@ def test_a_grasp_below_the_constraints_is_shown_nevertheless(gx: Any, bracket: P
     told = gx("evaluate", bracket, "--fos", "8", "--json")
     assert told.code == 0
     assert told.json["feasible"] is False
+
+
+@pytest.mark.parametrize(
+    ("words", "hint"),
+    [
+        (("-o", "folder.xlsx"), "Name another file with -o."),
+        (("--history", "folder.csv"), "Name another file with --history."),
+    ],
+)
+def test_a_folder_is_refused_with_the_option_that_names_it(
+    gx: Any, bracket: Path, words: tuple[str, str], hint: str
+) -> None:
+    option, name = words
+    folder = bracket.with_name(name)
+    folder.mkdir()
+    told = gx("run", bracket, option, folder)
+    assert (told.code, told.err.splitlines()[1]) == (3, hint)
+
+
+@pytest.mark.parametrize("option", ["-o", "--history"])
+def test_an_empty_file_name_is_wrong_usage(gx: Any, bracket: Path, option: str) -> None:
+    told = gx("run", bracket, option, "")
+    assert (told.code, told.err.splitlines()[0]) == (
+        2,
+        f"{option}: found '', expected the name of a file.",
+    )
+
+
+def test_ctrl_c_while_the_program_loads_is_exit_code_130(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The first moments are imports, which nobody wants to see."""
+
+    class Loading:
+        def __getattr__(self, name: str) -> None:
+            raise KeyboardInterrupt
+
+    monkeypatch.setitem(sys.modules, "grasp_xl.cli", Loading())
+    with pytest.raises(SystemExit) as end:
+        __main__.entry()
+    assert end.value.code == 130
+    assert capsys.readouterr().err == "Interrupted; nothing was written.\n"
 
 
 def test_ctrl_c_before_a_search_is_exit_code_130(

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import io
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from grasp_xl.chromosome import Chromosome
-from grasp_xl.errors import GraspError, InputError, Problem
-from grasp_xl.rules import moment_arm
+from grasp_xl.errors import InputError, Problem
 from grasp_xl.space import OptionSpace
-from grasp_xl.task import Parameters, settle
-from grasp_xl.workbook import layout
+from grasp_xl.task import Parameters
+from grasp_xl.workbook import layout, run_log
 from grasp_xl.workbook.carrying import carried, is_usable
 from grasp_xl.workbook.cells import Source, cells_of
 from grasp_xl.workbook.designs_sheet import PICK_NAME
+from grasp_xl.workbook.inputs import genes_text
 from grasp_xl.workbook.layout import VALID_DESIGNS, Field
 from grasp_xl.workbook.reading import open_source, read_option_space
 from grasp_xl.workbook.reading_ga import (
@@ -30,7 +28,6 @@ from grasp_xl.workbook.reading_pick import read_pick
 from grasp_xl.workbook.reading_run import (
     SavedRun,
     genes_as_they_stand,
-    logged_values,
     read_saved_run,
     shown_run,
 )
@@ -125,7 +122,7 @@ def _book(source: Source, *, stale_genes: bool) -> Book:
                 return Chromosome(genes_as_they_stand(source, block))
         return read_chromosome(source, space, block)
 
-    user = None if _is_assigned(source, space, parameters) else typed(layout.USER_BLOCK)
+    user = None if _is_assigned(source) else typed(layout.USER_BLOCK)
     what_if = typed(layout.WHAT_IF) if _is_typed(source, layout.WHAT_IF) else None
     if picked:
         picked, _ = carried(picked, space, space, VALID_DESIGNS)
@@ -141,24 +138,17 @@ def _book(source: Source, *, stale_genes: bool) -> Book:
     return Book(source, space, parameters, user, what_if, picked)
 
 
-def _is_assigned(source: Source, space: OptionSpace, parameters: Parameters) -> bool:
+def _is_assigned(source: Source) -> bool:
     """Tell whether the program chose the user-defined chromosome, and nobody typed over it."""
     area = find_block(source, layout.USER_BLOCK)
-    if area is None or min(area.row - 2, area.column - 1) < 0:
+    written = source.names.get(run_log.BENCHMARK_WRITTEN)
+    if area is None or written is None or min(area.row - 2, area.column - 1) < 0:
         return False
     if layout.ASSIGNED_MARK not in str(source.value(area.cell(-2, -1))):
         return False
-    logged = logged_values(source)
-    with suppress(KeyError, ValueError, TypeError, GraspError):
-        written = replace(
-            parameters,
-            fos=float(str(logged["FoS goal"])),
-            clearance_mm=float(str(logged["Minimum distance (mm)"])),
-            density_ratio=float(str(logged["Density ratio"])),
-            moment_arm=moment_arm(str(logged["Moment arm"])),
-        )
-        assigned = settle(space, written, None).benchmark.chromosome.genes
-        return np.array_equal(assigned, genes_as_they_stand(source, layout.USER_BLOCK))
+    with suppress(ValueError):
+        genes = Chromosome(genes_as_they_stand(source, layout.USER_BLOCK))
+        return genes_text(genes) == source.value(written)
     return False
 
 

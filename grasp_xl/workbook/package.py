@@ -290,8 +290,14 @@ def _failures_told(name: str, what: str = "workbook") -> Iterator[None]:
             cause = error.__cause__ or error  # openpyxl wraps a ValueError in one that says less
             if isinstance(cause, DefusedXmlException):
                 raise _document_type(name) from error
-            reason = (str(cause) or type(cause).__name__).splitlines()[0]
-            raise _damaged(name, f"a damaged {what} ({reason[:200]})") from error
+            raise _damaged(name, f"a damaged {what} ({_reason(cause)})") from error
+
+
+def _reason(error: BaseException) -> str:
+    """Return what a reader's exception says, unless it speaks of Python's types."""
+    if isinstance(error, TypeError | AttributeError):
+        return "a value that the file format does not have there"
+    return (str(error) or type(error).__name__).splitlines()[0][:200]
 
 
 def _document_type(name: str, part: str = "") -> InputError:

@@ -13,8 +13,6 @@ from grasp_xl.workbook.stamp import is_untouched
 LOCK_FILES = ("~${name}", ".~lock.{name}#")
 """Files that Excel and LibreOffice keep beside a workbook that they hold open."""
 
-ANOTHER_FILE = "Name another file with -o"
-
 REASONS = {
     errno.ENOSPC: ("the disk is full", "free some space, or write to another disk"),
     errno.EDQUOT: ("the disk quota is used up", "free some space, or write to another disk"),
@@ -27,8 +25,18 @@ REASONS = {
 # --- may it be written ---
 
 
-def check_place(target: Path, suffix: str, *, force: bool) -> None:
+def check_place(target: Path, suffix: str, *, force: bool, option: str = "-o") -> None:
     """Refuse a place where no file could be put in the end, before any work is done.
+
+    Parameters
+    ----------
+    target : Path
+    suffix : str
+        What its name must end in.
+    force : bool
+        Put it there though another program holds it open.
+    option : str
+        Which option names it.
 
     Raises
     ------
@@ -38,7 +46,7 @@ def check_place(target: Path, suffix: str, *, force: bool) -> None:
         If the folder is missing or read-only, or the file is held open or no file at all.
     """
     try:
-        _refuse_place(target)
+        _refuse_place(target, option)
         for pattern in () if force else LOCK_FILES:
             lock = target.with_name(pattern.replace("{name}", target.name))
             if lock.exists():
@@ -57,7 +65,7 @@ def check_place(target: Path, suffix: str, *, force: bool) -> None:
         )
 
 
-def _refuse_place(target: Path) -> None:
+def _refuse_place(target: Path, option: str) -> None:
     folder = target.resolve().parent
     if not folder.is_dir():
         raise OutputError(
@@ -68,7 +76,9 @@ def _refuse_place(target: Path) -> None:
     if target.exists() and not target.is_file():
         what = "a folder" if target.is_dir() else "no file"
         raise OutputError(
-            f"{target} is {what}, so nothing was written.", where=str(target), hint=ANOTHER_FILE
+            f"{target} is {what}, so nothing was written.",
+            where=str(target),
+            hint=f"Name another file with {option}",
         )
     if not os.access(folder, os.W_OK):
         raise OSError(errno.EROFS, "")
@@ -89,7 +99,7 @@ def check_target(target: Path, source: Path, *, in_place: bool, force: bool) -> 
         raise UsageError(
             f"The output {target} is the input.",
             where=str(target),
-            hint=f"{ANOTHER_FILE}; only run replaces its input, with --in-place",
+            hint="Name another file with -o; only run replaces its input, with --in-place",
         )
 
 
