@@ -19,10 +19,11 @@ from grasp_xl.rules import Terms
 from grasp_xl.search.exact import ExactSettings, OnBound, Proof
 from grasp_xl.search.exact import solve as prove
 from grasp_xl.search.feasibility import lifting_counts, max_fos
-from grasp_xl.search.floors import floors, proven_floors, search_space
+from grasp_xl.search.floors import floors, search_space
 from grasp_xl.search.genetic import OnProgress, search
 from grasp_xl.search.mutation import random_chromosome
 from grasp_xl.search.obstacles import any_feasible
+from grasp_xl.search.proven_floors import proven_floors
 from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import Generations, Interrupt, StopRule
 from grasp_xl.search.unmet_goals import floor_warnings, why_none_meets_all

@@ -16,9 +16,10 @@ from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rounding import rounded_down, rounded_up
 from grasp_xl.rules import SLACK, Requirements, Rules
 from grasp_xl.search.exact import ExactSettings, solve
-from grasp_xl.search.floors import floors, proven_floors
+from grasp_xl.search.floors import floors
 from grasp_xl.search.obstacles import any_feasible, least_counts, smallest_changes
 from grasp_xl.search.placing import place
+from grasp_xl.search.proven_floors import proven_floors
 from grasp_xl.search.unmet_goals import floor_warnings, why_none_meets_all
 from grasp_xl.space import OptionSpace, Part, frozen
 

@@ -33,6 +33,7 @@ from grasp_xl.search.exact_leaf import ENTRIES
 from grasp_xl.search.exact_many import ManyRoom, make_many_room
 from grasp_xl.search.exact_model import locate, weigh, weigh_goals
 from grasp_xl.search.feasibility import lifting_counts
+from grasp_xl.search.floors import floors
 from grasp_xl.search.symmetry import representative, symmetries
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
 
@@ -302,13 +303,16 @@ class _Search:
     def _start(self) -> None:
         """Open the root nodes: one for each choice of counts, with all elements in the root box."""
         room = make_room(len(self.locations.xyz), self.elements, 1)
+        need = self.rules.requirements
+        floor = self.rules.value(floors(self.space, need)) if self.counts else math.inf
         for number, counts in enumerate(self.counts):
             root = make_nodes((1, 1), self.elements)
             root.choice[:] = number
-            root.bound[:] = node_bound(
+            bound = node_bound(
                 *(self.locations, self.weights[number], root.boxes[0, 0], self.upper),
                 *(root.u[0, 0, 0], ROOT_STEPS, room),
             )
+            root.bound[:] = max(bound, floor)
             frontier = self.few if sum(counts) <= FEW_ELEMENTS else self.many
             frontier.put(root, np.ones(1, dtype=np.int64), self.upper - self.slack)
 
