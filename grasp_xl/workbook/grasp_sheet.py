@@ -51,9 +51,9 @@ FILL_COLOURS = (CYAN, MAGENTA)
 OUTLINE_COLOURS = (DARK_CYAN, DARK_MAGENTA)
 CORNERS = 36
 """Corners of a circle."""
-RINGS = ((1.0, 24), (0.6, 16), (0.2, 8))
+RINGS = ((1.0, 18), (0.25, 6))
 """Radius, as part of the outer one's, and corners of the rings that fill a circle."""
-RING_WIDTH = 0.4
+RING_WIDTH = 0.6
 """Width of their lines, as part of the circle's radius: they overlap, and end at its outline."""
 EDGE = 2.0
 """Width of an outline (points)."""
