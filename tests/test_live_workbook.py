@@ -765,6 +765,33 @@ def test_no_page_is_cut(paper_mm, bracket, office):
     assert office.pages(*paper_mm) == sum(area.count("!") for area in areas) + 2
 
 
+@pytest.fixture(scope="module", params=[8, 10])
+def wide_book(request, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Make a result of the bracket with a Max. above 5."""
+    folder = tmp_path_factory.mktemp("wide")
+    book = openpyxl.load_workbook(SAMPLES / "bracket.xlsx")
+    for sheet in set(layout.SHEETS) - {OPTION_SPACE}:
+        del book[sheet]
+    for cell in ("B12", "B20"):
+        book[OPTION_SPACE][cell] = request.param
+    book.save(folder / "export.xlsx")
+    path = folder / "result.xlsx"
+    output = commands.Output(path)
+    commands.run(folder / "export.xlsx", Parameters(), output, stop=lambda _: [Generations(300)])
+    return path
+
+
+@pytest.mark.parametrize("paper_mm", [(297.0, 210.0), (279.4, 215.9)], ids=["A4", "Letter"])
+def test_no_wide_page_is_cut(paper_mm, wide_book, office):
+    """With up to ten place genes, too, each print area takes one page, the list of magnets three."""
+    need_arial()
+    office.open(wide_book)
+    with zipfile.ZipFile(wide_book) as parts:
+        book = parts.read("xl/workbook.xml").decode()
+    areas = re.findall(r"_xlnm.Print_Area[^>]*>([^<]*)<", book)
+    assert office.pages(*paper_mm) == sum(area.count("!") for area in areas) + 2
+
+
 # --- formulas that every program has ---
 
 
