@@ -16,16 +16,21 @@ import openpyxl
 import pytest
 from live_cases import CRITERIA, PLACES, Case, random_case
 from office import CellValue, Office, Place, need_arial, run_office
+from shapely import LineString, Point, Polygon
+from spaces import kind as element_kind
+from spaces import rectangle
 
 from grasp_xl import commands
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.stop import Generations
+from grasp_xl.space import OptionSpace, Part
 from grasp_xl.task import Parameters, Task
-from grasp_xl.workbook import layout
+from grasp_xl.workbook import grasp_sheet, layout
 from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.calc_sheet import CalcBlock
 from grasp_xl.workbook.designs_sheet import GENE_COLUMN, PICK_NAME, PICK_ROW
+from grasp_xl.workbook.grasp_sheet import Picture
 from grasp_xl.workbook.layout import (
     APPROXIMATION_COLUMN,
     FIRST_LOCATION_ROW,
@@ -638,6 +643,113 @@ def test_difference_is_0_until_something_is_typed(edit, opened):
     assert what_if == "edited"
 
 
+# --- the pictures of the grasp ---
+
+
+def pictured(name: str) -> tuple[OptionSpace, Picture]:
+    """Return a sample's option space, and the picture of its user-defined grasp."""
+    task = task_of(SAMPLES / f"{name}.xlsx")
+    return task.space, Picture("", task.benchmark, CalcBlock(0, task.space.gene_slots, USER))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_grasp_picture_fills_every_element_to_its_true_diameter(name):
+    """The lines inside an outline leave no gap, touch it all around, and stay inside its edge."""
+    space, picture = pictured(name)
+    frame = grasp_sheet.frame_of(space)
+    point = 1 / 0.75 / frame.pixels_per_mm
+    shown = 0
+    for row in range(picture.block.size):
+        stroke, width = grasp_sheet._fill(space, picture, row, frame)
+        outline = grasp_sheet._outline(space, picture, row)
+        if "#N/A" in outline.points[0]:
+            assert {value for at in stroke.points for value in at} == {"#N/A"}
+            continue
+        shown += 1
+        radius = grasp_sheet._diameter_mm(space, row // picture.block.slots) / 2
+        circle = Polygon(outline.points)
+        centre = circle.centroid
+        assert [centre.distance(Point(at)) for at in outline.points] == pytest.approx([radius] * 37)
+        inked = LineString(stroke.points).buffer(width / 2 * point)
+        assert centre.buffer(0.98 * (radius - point)).within(inked)
+        assert inked.within(centre.buffer(1.001 * radius))
+    assert shown == len(picture.grasp.points_mm)
+
+
+@pytest.mark.parametrize("shape", [*NAMES, "tall", "wide", "tiny"])
+def test_a_grasp_picture_is_to_scale_and_wastes_little(shape):
+    """Both axes have one scale, show each element whole, and at most a tick distance beyond."""
+    if shape in NAMES:
+        space, _ = pictured(shape)
+    else:
+        size = {"tall": (90.0, 4000.0), "wide": (4000.0, 90.0), "tiny": (3.0, 2.0)}[shape]
+        part = Part(1000.0, np.array([size[0] / 2, 0.0, 0.0]))
+        kinds = (
+            element_kind("suction", [[0, 0, 0], [size[0], 0, 0]]),
+            element_kind("magnets", []),
+        )
+        space = OptionSpace(part, kinds, rectangle(*size), 0.65)
+    frame = grasp_sheet.frame_of(space)
+    low, high = np.array(frame.low_mm), np.array(frame.high_mm)
+    assert frame.pixels[0] * (high - low)[1] == pytest.approx(
+        frame.pixels[1] * (high - low)[0], rel=1e-12
+    )
+    assert max(frame.pixels[0] / 600, frame.pixels[1] / 500) == 1
+    corners = [space.approximation_polygon_mm[:, :2], space.ideal_polygon_mm[:, :2]]
+    for element, assumed in zip(space.kinds, layout.DEFAULT_DIAMETERS_MM, strict=True):
+        radius = (element.diameter_mm or assumed) / 2
+        corners += [element.footprints_mm[:, :2] + side for side in (-radius, radius)]
+    first, last = np.vstack(corners).min(axis=0), np.vstack(corners).max(axis=0)
+    spare = 0.02 * (last - first).max()
+    assert (low <= first).all()
+    assert (low >= first - frame.step_mm - spare).all()
+    assert (high >= last).all()
+    assert (high <= last + spare + 1 / frame.pixels_per_mm).all()
+    steps = low / frame.step_mm
+    assert steps == pytest.approx(np.round(steps), abs=1e-9)
+
+
+def test_a_grasp_chart_has_the_scale_of_its_frame(bracket):
+    """The file's plot areas are as wide to high as their axes are long, in both pictures."""
+    frame = grasp_sheet.frame_of(task_of(bracket).space)
+    found = 0
+    with zipfile.ZipFile(bracket) as parts:
+        for name in parts.namelist():
+            chart = parts.read(name).decode() if name.startswith("xl/charts/chart") else ""
+            if " grasp</a:t>" not in chart:
+                continue
+            found += 1
+            inner = chart[chart.index('<c:layoutTarget val="inner"') :]
+            width, height = (
+                float(re.search(rf'<c:{side} val="([^"]*)"', inner)[1]) * pixels
+                for side, pixels in zip("wh", frame.size, strict=True)
+            )
+            ends = {
+                end: [float(at) for at in re.findall(rf'<c:{end} val="([^"]*)"', chart)]
+                for end in ("min", "max")
+            }
+            x, y = np.subtract(ends["max"], ends["min"])
+            assert width / height == pytest.approx(x / y, rel=1e-9)
+    assert found == 2
+    assert bracket.stat().st_size < 400_000
+
+
+def test_grasp_pictures_follow_a_typed_diameter(opened):
+    """The outline has the diameter as typed, and the fill stays inside it."""
+    left = layout.GRASP_DATA_COLUMN + 3
+    fill, outline = (
+        Area(GRASP, grasp_sheet.FIRST_POINT, left + 2 * column, rows, 2)
+        for column, rows in ((0, len(grasp_sheet.FILL)), (10 + 1 + 10, len(grasp_sheet.OUTLINE)))
+    )
+    for diameter in (46.0, 20.0, 90.0):
+        opened.enter({"SuctionDiameter": diameter})
+        edge = np.array(opened.read(outline), dtype=float)
+        centre = edge[:-1].mean(axis=0)
+        assert np.hypot(*(edge - centre).T) == pytest.approx(diameter / 2)
+        rings = np.array(opened.read(fill), dtype=float)
+        assert np.hypot(*(rings - centre).T).max() < diameter / 2
+
+
 # --- what a printer makes of it ---
 
 
@@ -650,6 +762,33 @@ def test_no_page_is_cut(paper_mm, bracket, office):
         book = parts.read("xl/workbook.xml").decode()
     areas = re.findall(r"_xlnm.Print_Area[^>]*>([^<]*)<", book)
     assert len(areas) == len(layout.SHEETS)
+    assert office.pages(*paper_mm) == sum(area.count("!") for area in areas) + 2
+
+
+@pytest.fixture(scope="module", params=[8, 10])
+def wide_book(request, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Make a result of the bracket with a Max. above 5."""
+    folder = tmp_path_factory.mktemp("wide")
+    book = openpyxl.load_workbook(SAMPLES / "bracket.xlsx")
+    for sheet in set(layout.SHEETS) - {OPTION_SPACE}:
+        del book[sheet]
+    for cell in ("B12", "B20"):
+        book[OPTION_SPACE][cell] = request.param
+    book.save(folder / "export.xlsx")
+    path = folder / "result.xlsx"
+    output = commands.Output(path)
+    commands.run(folder / "export.xlsx", Parameters(), output, stop=lambda _: [Generations(300)])
+    return path
+
+
+@pytest.mark.parametrize("paper_mm", [(297.0, 210.0), (279.4, 215.9)], ids=["A4", "Letter"])
+def test_no_wide_page_is_cut(paper_mm, wide_book, office):
+    """With up to ten place genes, too, each print area takes one page, the list of magnets three."""
+    need_arial()
+    office.open(wide_book)
+    with zipfile.ZipFile(wide_book) as parts:
+        book = parts.read("xl/workbook.xml").decode()
+    areas = re.findall(r"_xlnm.Print_Area[^>]*>([^<]*)<", book)
     assert office.pages(*paper_mm) == sum(area.count("!") for area in areas) + 2
 
 

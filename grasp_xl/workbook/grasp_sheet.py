@@ -1,7 +1,8 @@
 """Sheet ``Grasp``: live plan views to scale (figures 12, 36, 41), drawn from points beside them.
 
-Elements are circles of their true diameter.  A point that is not there (no such element) is #N/A,
-which a chart leaves out.
+Elements are filled circles of their true diameter: an outline, and under it rings drawn so thick
+that they cover the circle.  A point that is not there (no such element) is #N/A, which a chart
+leaves out.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from grasp_xl.workbook.layout import (
     OPTION_SPACE,
     Area,
 )
-from grasp_xl.workbook.pen import Pen
+from grasp_xl.workbook.pen import ROW_HEIGHT, Pen
 from grasp_xl.workbook.styles import (
     BLACK,
     BLUE,
@@ -44,22 +45,32 @@ from grasp_xl.workbook.styles import (
     Style,
 )
 
-PLACE_COLOURS = (CYAN, MAGENTA)
-ELEMENT_COLOURS = (DARK_CYAN, DARK_MAGENTA)
+PLACE_COLOURS = ("#8CCFD8", "#E3A3C8")
+"""Pale cyan and magenta: where footprints lie dense, elements stand out by lightness as well."""
+FILL_COLOURS = (CYAN, MAGENTA)
+OUTLINE_COLOURS = (DARK_CYAN, DARK_MAGENTA)
 CORNERS = 36
 """Corners of a circle."""
-PLOT_WIDTH, PLOT_HEIGHT = 600, 400
-"""Inner plot area of a picture (pixels); both axes get the same millimetres a pixel."""
+RINGS = ((1.0, 18), (0.25, 6))
+"""Radius, as part of the outer one's, and corners of the rings that fill a circle."""
+RING_WIDTH = 0.6
+"""Width of their lines, as part of the circle's radius: they overlap, and end at its outline."""
+EDGE = 2.0
+"""Width of an outline (points)."""
+POINTS_PER_PIXEL = 0.75
+PLOT_WIDTH, PLOT_HEIGHT = 600, 500
+"""Most that the inner plot area of a picture takes (pixels)."""
 FRAME, LEGEND = 80, 50
 """Pixels around the plot area for axes and titles, and below them for the legend's many lines."""
-X_UNITS, Y_UNITS = 12, 8
-"""Tick distances from the middle to the edges: the proportion of the plot area."""
-ROUND_STEPS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
-MARGIN = 0.04
-"""Free part of the extent on each side."""
+LEAST_STEPS, MOST_STEPS = 6, 20
+"""Tick distances on the longer axis."""
+ROUND_STEPS = (1.0, 2.0, 2.5, 4.0, 5.0, 6.0, 8.0)
+LABEL_SIZE = 8
+"""Of the axes' labels (points): so that many stand side by side."""
+MARGIN = 0.01
+"""Free part of the extent on each side, beyond the elements and the part."""
 PICTURE_COLUMNS = 12
 """Of the default width: LibreOffice makes others wider, and stretches the picture with them."""
-PICTURE_ROWS = 35
 FIRST_POINT = 3
 NO_POINT = "#N/A"
 
@@ -77,6 +88,45 @@ class Picture:
 
 
 @dataclass(frozen=True, slots=True)
+class Frame:
+    """What a picture shows, and its scale: the same for both axes, exactly.
+
+    Parameters
+    ----------
+    low_mm, high_mm : tuple of float
+        Ends of the x and of the y axis.
+    step_mm : float
+        Distance of the tick marks.
+    pixels : tuple of int
+        Width and height of the inner plot area.
+    """
+
+    low_mm: tuple[float, float]
+    high_mm: tuple[float, float]
+    step_mm: float
+    pixels: tuple[int, int]
+
+    @property
+    def pixels_per_mm(self) -> float:
+        """The scale."""
+        return self.pixels[0] / (self.high_mm[0] - self.low_mm[0])
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the picture (pixels): a narrow part's has room for its legend."""
+        return PLOT_WIDTH + 2 * FRAME, self.pixels[1] + 2 * FRAME + LEGEND
+
+    @property
+    def rows(self) -> int:
+        """Rows of the sheet that the picture takes, with the one above it."""
+        return 3 + math.ceil(self.size[1] * POINTS_PER_PIXEL / ROW_HEIGHT)
+
+    def line_points(self, width_mm: float) -> float:
+        """Return a line's width, as a chart takes it: in quarters of a point, and no thinner."""
+        return math.ceil(width_mm * self.pixels_per_mm * POINTS_PER_PIXEL * 4) / 4
+
+
+@dataclass(frozen=True, slots=True)
 class Stroke:
     """A line of the picture: points and the formulas that give them; x and y of each."""
 
@@ -89,19 +139,19 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
     pen.write(0, 0, "GRASP: plan view to scale (mm), live with the What-if card", Style.TITLE)
     pen.write(0, GRASP_DATA_COLUMN, "Points that the pictures are drawn from", Style.NOTE)
     column = GRASP_DATA_COLUMN
-    turns = np.linspace(0.0, 2.0 * math.pi, CORNERS + 1)
     pen.row(2, column, ("cosine", "sine"), Style.HEADER)
-    for row, turn in enumerate(turns.tolist(), FIRST_POINT):
-        pen.row(row, column, (math.cos(turn), math.sin(turn)), Style.COORDINATE)
+    for row, unit in enumerate((*OUTLINE, *FILL), FIRST_POINT):
+        pen.row(row, column, unit, Style.COORDINATE)
     column += 3
+    frame = frame_of(space)
     for number, picture in enumerate(pictures):
         chart = book.add_chart({"type": "scatter", "subtype": "straight"})
         _add_background(chart, space)
-        column = _add_strokes(pen, chart, space, picture, column)
-        _to_scale(chart, space, picture.title)
+        column = _add_strokes(pen, chart, space, picture, column, frame)
+        _to_scale(chart, frame, picture.title)
         pen.insert_chart(2, number * PICTURE_COLUMNS, chart)
     pen.fix_row_heights()
-    page = Area(GRASP, 0, 0, PICTURE_ROWS, len(pictures) * PICTURE_COLUMNS)
+    page = Area(GRASP, 0, 0, frame.rows, len(pictures) * PICTURE_COLUMNS)
     pen.print_pages(pictures=[page])
 
 
@@ -142,10 +192,11 @@ def _add_strokes(
     space: OptionSpace,
     picture: Picture,
     column: int,
+    frame: Frame,
 ) -> int:
-    """Draw trusses, elements and centres; return the next free column."""
+    """Draw elements, trusses and centres; return the next free column."""
     unnamed = []
-    for name, stroke, look in _strokes(space, picture, column):
+    for name, stroke, look in _strokes(space, picture, column, frame):
         pen.write(2, column, name or "(more)", Style.HEADER)
         for row, (point, formulas) in enumerate(
             zip(stroke.points, stroke.formulas, strict=True), FIRST_POINT
@@ -163,23 +214,23 @@ def _add_strokes(
 
 
 def _strokes(
-    space: OptionSpace, picture: Picture, column: int
+    space: OptionSpace, picture: Picture, column: int, frame: Frame
 ) -> Iterator[tuple[str, Stroke, dict[str, Any] | None]]:
     """Yield name, points and look, from the bottom up; only one of a group has a name."""
     block = picture.block
-    ends = Area(GRASP, FIRST_POINT, column, 2)
+    rows = [row for row in range(block.size) if space.kinds[row // block.slots].total]
+    for row in rows:
+        stroke, width = _fill(space, picture, row, frame)
+        yield "", stroke, _line(FILL_COLOURS[row // block.slots], width)
+    ends = Area(GRASP, FIRST_POINT, column + 2 * len(rows), 2)
     yield "Main truss", _main_truss(picture), _line(RED, 3.5)
-    rows = {kind: kind * block.slots for kind in range(len(KINDS))}
-    named = False
-    for row in range(block.size):
-        if space.kinds[row // block.slots].total:
-            yield "" if named else "Branch trusses", _branch(picture, row, ends), _line(RED, 1)
-            named = True
-    for row in range(block.size):
-        number = row // block.slots
-        if space.kinds[number].total:
-            name = KINDS[number].plural.capitalize() if row == rows[number] else ""
-            yield name, _circle(space, picture, row), _line(ELEMENT_COLOURS[number], 3)
+    for row in rows:
+        name = "Branch trusses" if row == rows[0] else ""
+        yield name, _branch(picture, row, ends), _line(RED, 1)
+    for row in rows:
+        number, first = divmod(row, block.slots)
+        name = "" if first else KINDS[number].plural.capitalize()
+        yield name, _outline(space, picture, row), _line(OUTLINE_COLOURS[number], EDGE)
     centroid = [(float(space.part.centroid_mm[0]), float(space.part.centroid_mm[1]))]
     yield "Centroid", Stroke([*centroid], [("CentroidX", "CentroidY")]), _mark("x", BLACK, 9)
     force = block.column("force (N)").reference
@@ -249,25 +300,57 @@ def _branch(picture: Picture, row: int, ends: Area) -> Stroke:
     return Stroke(points, formulas)
 
 
-def _circle(space: OptionSpace, picture: Picture, row: int) -> Stroke:
-    """Draw an element at its true diameter."""
-    block, places = picture.block, _places(picture)
+def _ring(corners: int, radius: float = 1.0) -> Iterator[Pair]:
+    """Yield the points of a closed circle about 0."""
+    for turn in np.linspace(0.0, 2.0 * math.pi, corners + 1).tolist():
+        yield radius * math.cos(turn), radius * math.sin(turn)
+
+
+OUTLINE = tuple(_ring(CORNERS))
+FILL = tuple(point for radius, corners in RINGS for point in _ring(corners, radius))
+
+
+def _diameter_mm(space: OptionSpace, number: int) -> float:
+    return space.kinds[number].diameter_mm or DEFAULT_DIAMETERS_MM[number]
+
+
+def _outline(space: OptionSpace, picture: Picture, row: int) -> Stroke:
+    """Draw the edge of an element at its true diameter."""
+    return _circle(space, picture, row, 0.0, slice(0, len(OUTLINE)))
+
+
+def _fill(space: OptionSpace, picture: Picture, row: int, frame: Frame) -> tuple[Stroke, float]:
+    """Fill an element up to its outline; return the rings and the width of their line (points).
+
+    Excel draws later series over earlier ones, LibreOffice the other way: neither covers another.
+    """
+    radius = _diameter_mm(space, row // picture.block.slots) / 2
+    width = frame.line_points(RING_WIDTH * radius)
+    inset_mm = (width + EDGE / 2) / 2 / POINTS_PER_PIXEL / frame.pixels_per_mm
+    units = slice(len(OUTLINE), len(OUTLINE) + len(FILL))
+    return _circle(space, picture, row, inset_mm, units), width
+
+
+def _circle(
+    space: OptionSpace, picture: Picture, row: int, inset_mm: float, units: slice
+) -> Stroke:
+    """Draw circles about an element, so far inside its edge, from some of the unit points."""
+    block, here = picture.block, _places(picture).get(row)
     number = row // block.slots
-    labels, assumed = KINDS[number], DEFAULT_DIAMETERS_MM[number]
-    diameter = space.kinds[number].diameter_mm or assumed
-    name = labels.diameter.name
+    name, assumed = KINDS[number].diameter.name, DEFAULT_DIAMETERS_MM[number]
+    radius_mm = max(0.0, _diameter_mm(space, number) / 2 - inset_mm)
     radius = f"IF(ISNUMBER({name}),{name},{assumed:g})/2"
+    if inset_mm:
+        radius = f"MAX(0,{radius}-{inset_mm!r})"
     active = block.element("active", row).reference
     x, y = (block.element(axis, row).reference for axis in ("x", "y"))
     points: list[Pair] = []
     formulas = []
-    for corner in range(CORNERS + 1):
-        turn = 2.0 * math.pi * corner / CORNERS
-        unit = np.array([math.cos(turn), math.sin(turn)])
-        here = places.get(row)
-        points.append((NO_POINT, NO_POINT) if here is None else _pair(here + unit * diameter / 2))
+    for offset, unit in list(enumerate((*OUTLINE, *FILL)))[units]:
+        around = radius_mm * np.array(unit)
+        points.append((NO_POINT, NO_POINT) if here is None else _pair(here + around))
         cosine, sine = (
-            Area(GRASP, FIRST_POINT + corner, GRASP_DATA_COLUMN + axis).absolute
+            Area(GRASP, FIRST_POINT + offset, GRASP_DATA_COLUMN + axis).absolute
             for axis in range(2)
         )
         formulas.append(
@@ -279,49 +362,64 @@ def _circle(space: OptionSpace, picture: Picture, row: int) -> Stroke:
     return Stroke(points, formulas)
 
 
-def _to_scale(chart: Any, space: OptionSpace, title: str) -> None:  # noqa: ANN401 (untyped library)
-    middle, unit = _frame(space)
-    half = (X_UNITS * unit, Y_UNITS * unit)
+def _to_scale(chart: Any, frame: Frame, title: str) -> None:  # noqa: ANN401 (untyped library)
     for number, set_axis in enumerate((chart.set_x_axis, chart.set_y_axis)):
         set_axis(
             {
                 "name": "xy"[number] + " (mm)",
-                "min": middle[number] - half[number],
-                "max": middle[number] + half[number],
-                "major_unit": 4 * unit,
+                "min": frame.low_mm[number],
+                "max": frame.high_mm[number],
+                "major_unit": frame.step_mm,
                 "num_format": "0.###",
+                "num_font": {"size": LABEL_SIZE},
                 "label_position": "low",
                 "crossing": "min",
                 "major_gridlines": {"visible": False},
             }
         )
-    width, height = PLOT_WIDTH + 2 * FRAME, PLOT_HEIGHT + 2 * FRAME + LEGEND
+    width, height = frame.size
     chart.set_size({"width": width, "height": height})
     chart.set_plotarea(
         {
             "layout": {
-                "x": FRAME / width,
+                "x": (width - frame.pixels[0]) / 2 / width,
                 "y": FRAME / 2 / height,
-                "width": PLOT_WIDTH / width,
-                "height": PLOT_HEIGHT / height,
+                "width": frame.pixels[0] / width,
+                "height": frame.pixels[1] / height,
             }
         }
     )
     chart.set_title({"name": title, "name_font": {"size": 11}})
 
 
-def _frame(space: OptionSpace) -> tuple[tuple[float, float], float]:
-    """Return the middle of the picture (mm), and the millimetres between its tick marks.
+def frame_of(space: OptionSpace) -> Frame:
+    """Frame all elements at all places and both polygons, as large as the plot area takes.
 
-    Both are round numbers, so that the axes are labelled by round numbers.
+    The axes begin at a multiple of their tick distance, so that they are labelled by round
+    numbers, and end where the part or an element does.
     """
-    points = [kind.footprints_mm for kind in space.kinds]
-    everything = np.vstack([*points, space.approximation_polygon_mm, space.ideal_polygon_mm])[:, :2]
+    corners = [space.approximation_polygon_mm[:, :2], space.ideal_polygon_mm[:, :2]]
+    for number, kind in enumerate(space.kinds):
+        radius = _diameter_mm(space, number) / 2
+        corners += [kind.footprints_mm[:, :2] + side for side in (-radius, radius)]
+    everything = np.vstack(corners)
     low, high = everything.min(axis=0), everything.max(axis=0)
-    extent = (high - low) * (1 + 2 * MARGIN)
-    # Half a unit is lost where the middle moves to a round number.
-    needed = max(extent[0] / 2 / (X_UNITS - 0.5), extent[1] / 2 / (Y_UNITS - 0.5))
-    power = 10.0 ** math.floor(math.log10(needed))
-    unit = next(step * power for step in ROUND_STEPS if step * power >= needed)
-    x, y = (round(float(middle) / unit) * unit for middle in (low + high) / 2)
-    return (x, y), unit
+    margin = MARGIN * float((high - low).max())
+    low, high = low - margin, high + margin
+    step = _step(low, high)
+    low = np.floor(low / step) * step
+    extent = (high - low).tolist()
+    scale = min(PLOT_WIDTH / extent[0], PLOT_HEIGHT / extent[1])
+    # Whole pixels, and with them the far ends, are rounded so that both axes keep the scale.
+    width, height = (math.ceil(length * scale - 1e-6) for length in extent)
+    ends = (float(low[0]) + width / scale, float(low[1]) + height / scale)
+    return Frame((float(low[0]), float(low[1])), ends, step, (width, height))
+
+
+def _step(low: FloatArray, high: FloatArray) -> float:
+    """Return the round tick distance whose multiples below the extent waste the least."""
+    longest = float((high - low).max())
+    power = 10.0 ** math.floor(math.log10(longest / MOST_STEPS))
+    steps = [step * power * more for step in ROUND_STEPS for more in (1.0, 10.0)]
+    usable = [step for step in steps if LEAST_STEPS <= longest / step <= MOST_STEPS]
+    return min(usable, key=lambda step: float(np.prod(high - np.floor(low / step) * step)))

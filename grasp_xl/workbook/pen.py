@@ -28,6 +28,8 @@ LibreOffice's columns are 6 percent wider: it does not round the width of a digi
 """
 LEAST_SCALE, MOST_SCALE = 60, 85
 """Scales of printed pages (percent): text of 9 points is then 5.4 to 7.7 points high."""
+FIT_SCALE = 43
+"""Least at which a page that is too wide is fitted to the paper; a wider one runs over."""
 
 CellValue = str | int | float | bool | None
 
@@ -158,7 +160,8 @@ class Pen:
     def print_pages(self, *lists: Area, pictures: Iterable[Area] = ()) -> None:
         """Print these areas, each from a new page on, at one scale that suits A4 and Letter.
 
-        Column widths must be set before.
+        Column widths must be set before.  Where the widest area is somewhat too wide (many place
+        genes), the scale is less; if no picture is then cut, it is left to the program that prints.
 
         Parameters
         ----------
@@ -168,9 +171,16 @@ class Pen:
             What belongs on one page, behind the lists.
         """
         pages = [*lists, *pictures]
-        fits = [PAGE_WIDTH / self.sheet.pixels(page)[0] for page in pages]
-        fits += [PAGE_HEIGHT / self.sheet.pixels(page)[1] for page in pages[len(lists) :]]
-        self.sheet.set_print_scale(max(LEAST_SCALE, min(MOST_SCALE, int(100 * min(fits)))))
+        wide = [100 * PAGE_WIDTH / self.sheet.pixels(page)[0] for page in pages]
+        high = [100 * PAGE_HEIGHT / self.sheet.pixels(page)[1] for page in pages[len(lists) :]]
+        too_wide = FIT_SCALE <= min(wide) < LEAST_SCALE
+        # LibreOffice fits each area by itself, and enlarges none.
+        widths = wide[len(lists) :]
+        if too_wide and all(w <= h or h >= 100 for w, h in zip(widths, high, strict=True)):
+            self.sheet.fit_to_pages(1, 0)
+        else:
+            least = int(min(wide)) if too_wide else LEAST_SCALE
+            self.sheet.set_print_scale(max(least, min(MOST_SCALE, int(min(wide + high)))))
         self.sheet.print_area_range = ",".join(page.reference for page in pages)
 
     def name_area(self, name: str, area: Area) -> None:
