@@ -47,7 +47,7 @@ def guide_parameters(pen: Pen, plan: Layout) -> None:
     for field in layout.PARAMETERS:
         cell = plan.parameter(field.name)
         note = NOTES[field.name] + (GOAL_HINT if field.name in layout.GOAL_NAMES else "")
-        pen.sheet.write_comment(cell.row, 0, note, {"x_scale": 2, "font_size": 9})
+        pen.note(cell.row, 0, note)
         options = _accepted(field.name) | {"input_title": field.label[:32], "input_message": note}
         pen.sheet.data_validation(cell.row, cell.column, cell.row, cell.column, options)
 

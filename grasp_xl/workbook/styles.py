@@ -13,6 +13,8 @@ from xlsxwriter import Workbook
 from xlsxwriter.format import Format
 
 FONT = "Arial"
+FIXED_FONT = {"font_name": FONT, "font_scheme": "none"}
+"""The font of every cell; with a scheme, Excel would show the theme's instead."""
 
 CYAN = "#00A0B0"
 MAGENTA = "#C2187A"
@@ -119,6 +121,6 @@ class Formats:
 
     def __getitem__(self, style: Style) -> Format:
         if style.name not in self._made:
-            look = {"font_name": FONT, "font_size": 9, **style.look}
+            look = {**FIXED_FONT, "font_size": 9, **style.look}
             self._made[style.name] = self._book.add_format(look)
         return self._made[style.name]
