@@ -65,7 +65,7 @@ NO_GOAL = "A goal is no number above 0: look at the goals and the user-defined c
 
 FUNCTIONS = {
     *("ABS", "AND", "COLUMN", "COUNT", "IF", "INDEX", "INT", "ISBLANK", "ISNUMBER", "LEFT", "MAX"),
-    *("LOWER", "MATCH", "SUBSTITUTE"),
+    *("LOWER", "MATCH", "MOD", "SUBSTITUTE"),
     *(
         "MIN",
         "N",
@@ -605,6 +605,23 @@ def test_difference_is_0_until_something_is_typed(edit, opened):
     *children, what_if = opened.values(shown)
     assert children == [0 if edit == "genes" else "edited"] * PLAN.children
     assert what_if == "edited"
+
+
+def test_places_that_change_places_are_an_edit(opened):
+    """Two rows swapped, or x and y of one place, change no sum of coordinates: "edited" all the same."""
+    first, second = opened.read("SuctionLocations")[:2]
+    places = Area(OPTION_SPACE, FIRST_LOCATION_ROW, KINDS[0].column, 2, 3)
+    swapped_axes = {places.cell(0, 0): first[1], places.cell(0, 1): first[0]}
+    swapped_rows = {
+        places.cell(row, axis): value
+        for row, point in enumerate((second, first))
+        for axis, value in enumerate(point)
+    }
+    for edit in (swapped_axes, swapped_rows):
+        opened.enter(edit)
+        assert opened.value(PLAN.what_if.at(*DIFFERENCE)) == "edited"
+        opened.undo()
+    assert opened.value(PLAN.what_if.at(*DIFFERENCE)) == 0
 
 
 # --- what a printer makes of it ---

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from grasp_xl.rules import DIVERGENCE, TERMS
 from grasp_xl.space import FloatArray, OptionSpace
 from grasp_xl.workbook import layout
@@ -25,6 +27,8 @@ GOALS_USABLE = "GoalsUsable"
 SLACK = "1E-9"
 """Relative slack of a comparison, and the least number that counts as above 0."""
 FIRST_ROW = 3
+STEP = 0.618034
+"""The golden section: its multiples modulo 1 differ for all cells of a list, neighbours too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,5 +201,9 @@ def _places(space: OptionSpace) -> list[Watched]:
 
 
 def _checksum(name: str, points: FloatArray) -> tuple[str, float]:
-    """Return formula and value of a number that changes when a coordinate does."""
-    return f"(SUMSQ({name})+SUM({name}))", float((points**2).sum() + points.sum())
+    """Return formula and value of a number that changes when a coordinate does, or its place."""
+    count = np.arange(points.size).reshape(points.shape)
+    value = float((points**2).sum() + (points * np.mod(STEP * count, 1.0)).sum())
+    row, column = f"(ROW({name})-MIN(ROW({name})))", f"(COLUMN({name})-MIN(COLUMN({name})))"
+    weight = f"MOD({STEP}*({points.shape[1]}*{row}+{column}),1)"
+    return f"(SUMSQ({name})+SUMPRODUCT({name},{weight}))", value
