@@ -8,6 +8,9 @@ from collections.abc import Iterator
 
 import pytest
 from live_cases import random_case
+from openpyxl.utils.cell import coordinate_to_tuple, range_boundaries
+
+from grasp_xl.workbook import layout
 
 
 @pytest.fixture(scope="module")
@@ -38,3 +41,15 @@ def test_every_text_of_a_chart_names_its_font(parts):
         texts = re.findall(r"<c:(?:title|txPr)>.*?</c:(?:title|txPr)>", chart)
         assert len(texts) == 6  # chart title, two axis titles, two axes, legend
         assert all('<a:latin typeface="Arial"' in text for text in texts)
+
+
+def test_missing_points_are_not_seen(parts):
+    """The points of the pictures show no black #N/A: where there is none it has the cell's colour."""
+    sheet = parts[f"xl/worksheets/sheet{layout.SHEETS.index(layout.GRASP) + 1}.xml"]
+    assert "#N/A" in sheet
+    rule = re.search(r'<conditionalFormatting sqref="([^"]*)">.*?</conditionalFormatting>', sheet)
+    assert 'type="containsErrors"' in rule.group()
+    left, top, right, bottom = range_boundaries(rule.group(1))
+    missing = re.findall(r'<c r="([A-Z]+\d+)"[^>]*><f>[^<]*</f><v>#N/A', sheet)
+    cells = [coordinate_to_tuple(cell) for cell in missing]
+    assert all(left <= column <= right and top <= row <= bottom for row, column in cells)

@@ -1,7 +1,7 @@
 """Sheet ``Grasp``: live plan views to scale (figures 12, 36, 41), drawn from points beside them.
 
 Elements are circles of their true diameter.  A point that is not there (no such element) is #N/A,
-which a chart leaves out.
+which a chart leaves out, and which is written in the colour of its cell.
 """
 
 from __future__ import annotations
@@ -100,6 +100,7 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
         column = _add_strokes(pen, chart, space, picture, column)
         _to_scale(chart, space, picture.title)
         pen.insert_chart(2, number * PICTURE_COLUMNS, chart)
+    pen.hide_errors(Area(GRASP, FIRST_POINT, GRASP_DATA_COLUMN, CORNERS + 1, column))
     pen.fix_row_heights()
     page = Area(GRASP, 0, 0, PICTURE_ROWS, len(pictures) * PICTURE_COLUMNS)
     pen.print_pages(pictures=[page])

@@ -36,7 +36,7 @@ CellValue = str | int | float | bool | None
 class Cell:
     """What one cell of a sheet holds: a value, or a formula with the value that it gives.
 
-    ``rows`` and ``columns`` above 1 merge it with the cells below and beside, for a label only.
+    ``rows`` and ``columns`` above 1 merge it with the cells below and beside.
     """
 
     row: int
@@ -126,7 +126,7 @@ class Pen:
         for cell in cells:
             if (cell.rows, cell.columns) != (1, 1):
                 area = Area(self.name, cell.row, cell.column, cell.rows, cell.columns)
-                self.span(area, cell.value, cell.style)
+                self.span(area, cell.value, cell.style, cell.formula)
             else:
                 self.write(cell.row, cell.column, cell.value, cell.style, cell.formula)
 
@@ -135,16 +135,19 @@ class Pen:
         for offset, value in enumerate(values):
             self.write(row, column + offset, value, style)
 
-    def span(self, area: Area, value: CellValue, style: Style) -> None:
-        """Write one value over merged cells."""
+    def span(self, area: Area, value: CellValue, style: Style, formula: str | None = None) -> None:
+        """Write one value, or a formula with it, over merged cells."""
         last_row, last_column = area.row + area.rows - 1, area.column + area.columns - 1
-        if (last_row, last_column) == (area.row, area.column):
-            self.write(area.row, area.column, value, style)
-            return
-        self.filled.add((area.row, area.column))
-        self.sheet.merge_range(
-            area.row, area.column, last_row, last_column, value, self.formats[style]
-        )
+        if (last_row, last_column) != (area.row, area.column):
+            look = self.formats[style]
+            self.sheet.merge_range(area.row, area.column, last_row, last_column, "", look)
+        self.write(area.row, area.column, value, style, formula)
+
+    def hide_errors(self, area: Area) -> None:
+        """Write the error values of computed cells in the colour of the cells."""
+        last_row, last_column = area.row + area.rows - 1, area.column + area.columns - 1
+        look = {"type": "errors", "format": self.formats.over(Style.HIDDEN)}
+        self.sheet.conditional_format(area.row, area.column, last_row, last_column, look)
 
     def note(self, row: int, column: int, text: str) -> None:
         """Put a note on a cell: it shows while the pointer is over it."""

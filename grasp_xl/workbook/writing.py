@@ -116,7 +116,10 @@ def _inputs(task: Task) -> dict[str, CellValue]:
         **parameter_values(task),
     }
     for labels, kind in zip(layout.KINDS, task.space.kinds, strict=True):
-        data = (kind.count_min, kind.count_max, kind.force_n, kind.price, kind.weight_g)
-        for suffix, value in zip(("Min", "Max", "Force", "Price", "Weight"), data, strict=True):
+        counts = (kind.count_min, kind.count_max)
+        data = (*counts, kind.force_n, kind.price, kind.weight_g, kind.total)
+        suffixes = ("Min", "Max", "Force", "Price", "Weight", "Total")
+        for suffix, value in zip(suffixes, data, strict=True):
             inputs[labels.field(suffix)] = value
+        inputs[labels.diameter.name] = kind.diameter_mm
     return inputs
