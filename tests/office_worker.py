@@ -167,9 +167,15 @@ class Session:
         first.Spreadsheet.copyRange(first.CellAddress, area.RangeAddress)
 
     def undo(self):
-        """Put back what was typed over since the workbook was opened."""
+        """Put back what was typed over since the workbook was opened.
+
+        Nobody looks at the cells in between, so LibreOffice must be told to calculate them: cells
+        that were errors else stay what they were when the next thing is typed.
+        """
         while self._typed:
             put(*self._typed.pop())
+        if self._book is not None:
+            self._book.calculate()
 
     def save(self, path):
         """Save the workbook as .xlsx."""

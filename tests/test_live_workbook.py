@@ -63,15 +63,19 @@ CARD_ROWS, CARD_COLUMNS = 43, 7
 GA_CELLS = Area(GA, 0, 0, PLAN.card_row + CARD_ROWS, PLAN.what_if.column + CARD_COLUMNS)
 STATUS, DIFFERENCE = (35, 0), (42, 5)
 NOT_AVAILABLE = "#N/A"
-BAD_COUNT = "A total is out of range: type a whole number from Min. to Max. of its kind."
-BAD_INDEX = (
-    "An active index has no place: type a whole number from 1 to its total; x, y, z are numbers."
+GOAL_LABELS = dict(
+    zip(
+        GOAL_NAMES,
+        ("Cost ($)", "Residual Moment (N-mm)", "Deviation (mm)", "Structure (mm)"),
+        strict=True,
+    )
 )
-NO_GOAL = "A goal is no number above 0: look at the goals and the user-defined chromosome."
+UP_TO = "at most 1,000,000,000"
+NO_BENCHMARK = "no user-defined grasp to take it from; mend that chromosome, or type a goal."
 
 FUNCTIONS = {
-    *("ABS", "AND", "COLUMN", "COUNT", "IF", "INDEX", "INT", "ISBLANK", "ISNUMBER", "LEFT", "MAX"),
-    *("LOWER", "MATCH", "SUBSTITUTE"),
+    *("ABS", "AND", "COLUMN", "COUNT", "IF", "INDEX", "INT", "ISNUMBER", "LEFT", "MAX"),
+    *("COUNTA", "COUNTIF", "ISERROR", "ISLOGICAL", "LOWER", "MATCH", "MOD", "SUBSTITUTE"),
     *(
         "MIN",
         "N",
@@ -404,32 +408,72 @@ def test_goals_follow_the_user_defined_grasp_until_typed_over(opened, tmp_path):
     opened.enter({"MomentGoal": 2500.0, USER.cell(0, 1): 1})
     assert opened.value("MomentGoal") == 2500.0
     opened.enter({"MomentGoal": None})
-    assert opened.value(PLAN.what_if.at(*STATUS)) == NO_GOAL
+    assert agrees(opened.value(PLAN.user_term(1)), opened.value(PLAN.what_if.at(34, 2)))
 
 
 WRONG = {
-    "cup index": (0, 1, (0, -1, 9999, 2.5, "abc", None), BAD_INDEX),
-    "magnet index": (1, 1, (0, -1, 9999, 2.5, "abc", None), BAD_INDEX),
-    "cup count": (0, 0, (0, -1, 6, 2.5, "abc", None), BAD_COUNT),
-    "magnet count": (1, 0, (0, -1, 6, 2.5, "abc", None), BAD_COUNT),
+    "cup index": (0, 1, (0, -1, 9999, 2.5, "abc", None, "=NA()"), "Suction Index 1: type {}."),
+    "magnet index": (1, 2, (0, -1, 9999, 2.5, "abc", None, "=1/0"), "Magnets Index 2: type {}."),
+    "cup count": (0, 0, (0, -1, 6, 2.5, "abc", None, "=NA()"), "Suction Total #: type {}."),
+    "magnet count": (1, 0, (0, -1, 6, 2.5, "abc", None, "=1/0"), "Magnets Total #: type {}."),
 }
+BLOCKS = {
+    **{name: (card.genes, card.status) for name, card in CARDS.items()},
+    "UserChromosome": (USER, PLAN.user_status),
+}
+"""Genes and status of every live block."""
 
 
-@pytest.mark.parametrize("name", ["WhatIf", "Child2"])
+@pytest.mark.parametrize("name", ["WhatIf", "Child2", "UserChromosome"])
 @pytest.mark.parametrize("gene", WRONG)
-def test_a_wrong_gene_gives_a_plain_message(name, gene, opened):
-    """The card says what is wrong and shows no error value; nothing else on the sheet changes."""
+def test_a_wrong_gene_is_named_with_what_to_type(name, gene, opened):
+    """Its block says which it is and what to type, and shows no error value; other cards stay as they are."""
     row, column, values, message = WRONG[gene]
-    card = CARDS[name]
+    genes, status = BLOCKS[name]
+    opened.enter({genes.cell(0, 0): 2, genes.cell(1, 0): 2})
+    least, most = opened.value(KINDS[row].field("Min")), opened.value(KINDS[row].field("Max"))
+    total = opened.value(KINDS[row].field("Total"))
+    span = f"{least:g} to {min(most, total):g}" if column == 0 else f"1 to {total:g}"
     before = opened.read(GA_CELLS)
     for value in values:
-        opened.enter({card.genes.cell(row, column): value})
+        opened.enter({genes.cell(row, column): value})
         after = opened.read(GA_CELLS)
-        shown = opened.read(card.at(0, 0, CARD_ROWS, CARD_COLUMNS))
-        assert shown[STATUS[0]][STATUS[1]] == message
-        assert [shown[33][5], shown[41][5]] == ["-", "-"]
-        assert errors(after) == []
-        assert without(card, before) == without(card, after)
+        assert after[status.row][status.column] == message.format(f"a whole number from {span}")
+        typed = after[genes.row + row][genes.column + column]
+        assert errors(after) == errors([[typed]])
+        if name != "UserChromosome":
+            card = CARDS[name]
+            assert [opened.value(card.at(33, 5)), opened.value(card.at(41, 5))] == ["-", "-"]
+            assert without(card, before) == without(card, after)
+
+
+def test_an_active_index_twice_is_called_that(opened):
+    """Not "closer than the minimum distance": the second of them is named, on cards and on the user's block."""
+    for name, (genes, status) in BLOCKS.items():
+        opened.enter({genes.cell(1, 0): 3, genes.cell(1, 1): 5, genes.cell(1, 2): 7})
+        opened.enter({genes.cell(1, 3): 5})
+        told = "Magnets Index 3: this index a second time"
+        assert str(opened.value(status)).startswith(told), name
+
+
+def test_the_user_defined_block_says_what_its_grasp_meets(opened):
+    """It has the card's line: FoS or distance missed, a goal missed, or all met."""
+    opened.enter({"FoSGoal": 400})
+    assert opened.value(PLAN.user_status) == "FoS is below its goal."
+    opened.enter({"FoSGoal": 0.1, "MinClearance": 5000})
+    assert opened.value(PLAN.user_status) == "Two elements are closer than the minimum distance."
+    opened.enter({"MinClearance": 0.1})
+    assert opened.value(PLAN.user_status) == "Meets FoS, distance and every goal."
+    opened.enter({"MomentGoal": 0.001})
+    assert opened.value(PLAN.user_status) == "Meets FoS and distance, not every goal."
+
+
+def test_an_empty_block_says_who_fills_it(opened):
+    """Emptied user-defined genes are assigned by the next run: block and cards say so, in their words."""
+    opened.enter({USER.cell(row, column): None for row in range(2) for column in range(6)})
+    told = "There are no genes: type a grasp, or run grasp-xl on this workbook to fill them in."
+    assert opened.value(PLAN.user_status) == told
+    assert opened.value(PLAN.what_if.status) == f"GA, Cost ($): {NO_BENCHMARK}"
 
 
 def without(card: Card, rows: list[list[CellValue]]) -> list[list[CellValue]]:
@@ -449,75 +493,118 @@ def test_a_wrong_gene_leaves_no_error_on_any_sheet(opened):
 
 @pytest.mark.parametrize("value", [0, 9999, "abc", None])
 def test_a_wrong_user_defined_gene_leaves_no_goals(value, opened):
-    """Without a user-defined grasp there are no goals: each card says so, without an error value."""
+    """Without a user-defined grasp there are no goals: each card says so, until they are typed."""
     opened.enter({USER.cell(0, 1): value})
-    assert opened.value(PLAN.what_if.at(*STATUS)) == NO_GOAL
+    assert opened.value(PLAN.what_if.status) == f"GA, Cost ($): {NO_BENCHMARK}"
     for card in CARDS.values():
         assert not str(opened.value(card.at(*STATUS))).startswith("Meets")
         assert opened.value(card.at(33, 5)) == "-"
     assert errors(opened.read(GA_CELLS)) == []
+    opened.enter(dict.fromkeys(GOAL_NAMES, 1000.0))
+    assert str(opened.value(PLAN.what_if.status)).startswith("Meets")
 
 
+NA = "=NA()"
 BAD_INPUTS: dict[str, tuple[Place, tuple[float | str | None, ...], str]] = {
-    "mass": ("PartMass", ("abc", None, 0), "Part data, Part mass (g)|a number above 0"),
-    "centroid": ("CentroidZ", ("abc", None), "Part data, Centroid Z (mm)|a number"),
+    "mass": (
+        "PartMass",
+        ("abc", None, 0, 2e9, NA),
+        f"Part data, Part mass (g)|a number above 0, {UP_TO}",
+    ),
+    "centroid": (
+        "CentroidZ",
+        ("abc", None, -2e9, NA),
+        f"Part data, Centroid Z (mm)|a number, {UP_TO} in size",
+    ),
     "force": (
         "SuctionForce",
-        ("abc", -1),
-        "Suction cup data, Normal force capacity (N)|a number above 0",
+        ("abc", -1, NA),
+        f"Suction cup data, Normal force capacity (N)|a number above 0, {UP_TO}",
     ),
     "price": (
         "MagnetPrice",
-        ("abc", None, -1),
-        "Magnet data, Unit price ($)|a number of 0 or more",
+        ("abc", None, -1, NA),
+        f"Magnet data, Unit price ($)|a number of 0 or more, {UP_TO}",
     ),
     "weight": (
         "MagnetWeight",
-        ("abc", -1),
-        "Magnet data, Weight (g)|a number of 0 or more, or blank",
+        ("abc", -1, NA),
+        f"Magnet data, Weight (g)|a number of 0 or more, {UP_TO}, or nothing",
+    ),
+    "least count": (
+        "SuctionMin",
+        ("abc", 2.5, 9999, NA),
+        (
+            "Suction cup data, # Suction Cups (Min.)"
+            "|a whole number from 0 to Max. and to the number of places"
+        ),
     ),
     "count": (
         "SuctionMax",
-        ("abc", 2.5),
-        "Suction cup data, # Suction Cups (Max.)|a whole number of 0 or more",
+        ("abc", 2.5, 26, NA),
+        "Suction cup data, # Suction Cups (Max.)|a whole number from 0 to 25",
+    ),
+    "diameter": (
+        "MagnetDiameter",
+        ("abc", 0, NA),
+        f"Option Space, Magnet diameter (mm)|a number above 0, {UP_TO}, or nothing",
     ),
     "scale": (
         "ScaleFactor",
-        ("abc", 0, 1.5),
+        ("abc", 0, 1.5, NA),
         "Option Space, Scale Factor|a number above 0, at most 1",
+    ),
+    "place": (
+        FOOTPRINT,
+        ("abc", None, NA),
+        "Option Space, Suction cup locations|three numbers at index 2",
+    ),
+    "elitism": ("Elitism", ("abc", 2, NA), "GA, Elitism|1 or 0, or nothing"),
+    "generations": (
+        "Generations",
+        ("abc", 2.5, NA),
+        "GA, Number of Generations|a whole number from 0 to 1,000,000,000, or nothing",
     ),
     "clearance": (
         "MinClearance",
-        ("abc", None, 0),
-        "GA, Minimum Gripper Element Distance (mm)|a number above 0",
+        ("abc", 0, NA),
+        f"GA, Minimum Gripper Element Distance (mm)|a number above 0, {UP_TO}, or nothing",
     ),
     "ratio": (
         "DensityRatio",
-        ("abc", None, -1),
-        "GA, Structure Linear Density Ratio|a number of 0 or more",
+        ("abc", -1, NA),
+        f"GA, Structure Linear Density Ratio|a number of 0 or more, {UP_TO}, or nothing",
     ),
-    "FoS": ("FoSGoal", ("abc", None, 0, -3), "GA, FoS|a number above 0"),
-    "arm": ("MomentArm", ("abc", 3), "GA, Moment Arm|3d or plan"),
+    "FoS": ("FoSGoal", ("abc", 0, -3, NA), f"GA, FoS|a number above 0, {UP_TO}, or nothing"),
+    "arm": ("MomentArm", ("abc", 3, NA), "GA, Moment Arm|3d or plan, or nothing"),
     "criterion": (
         "FitnessCriterion",
-        ("abc", "cost+", "cost moment", "cost+divergence", "cost+cost", "co+costst", 7, "cos t"),
-        "GA, Fitness Criterion|divergence, one criterion, or some joined by +",
+        ("abc", "cost+", "cost moment", "cost+divergence", "co+costst", 7, "cos t", NA),
+        "GA, Fitness Criterion|divergence, one criterion, or some joined by +, or nothing",
     ),
-    "corner": (CORNER, ("abc", None), "The polygon|numbers, and no corner twice in a row"),
+    "corner": (
+        CORNER,
+        ("abc", None, NA),
+        "The polygon|numbers, around an area, no corner twice in a row, no edge across another",
+    ),
 }
 
 
 @pytest.mark.parametrize("wrong", BAD_INPUTS)
 def test_an_input_that_cannot_be_used_is_named(wrong, opened):
-    """Every card names it and what to type, and no sheet shows an error value."""
+    """Every card, and the user's block, names it and what to type; no card shows an error value."""
     place, values, told = BAD_INPUTS[wrong]
     label, words = told.split("|")
     message = f"{label} cannot be used: type {words}."
     for value in values:
         opened.enter({place: value})
-        shown = opened.values([card.at(*STATUS) for card in CARDS.values()])
-        assert shown == [message] * len(CARDS)
-        assert {sheet for sheet, _ in errors_of(opened)} <= {GRASP}
+        shown = opened.values([status for _, status in BLOCKS.values()])
+        assert shown == [message] * len(BLOCKS)
+        assert opened.value(PLAN.what_if.at(33, 5)) == opened.value(PLAN.what_if.at(23, 1)) == "-"
+        own = errors(opened.read(place)) if value == NA else []
+        assert errors(opened.read(GA_CELLS)) in ([], own)  # the cell itself shows what was typed
+        if not own:
+            assert {sheet for sheet, _ in errors_of(opened)} <= {GRASP}
 
 
 def test_a_corner_twice_in_a_row_is_named(opened):
@@ -525,26 +612,35 @@ def test_a_corner_twice_in_a_row_is_named(opened):
     corners = opened.read("ApproximationPolygon")
     twice = dict(zip((CORNER.cell(0, axis) for axis in range(3)), corners[1], strict=True))
     opened.enter(twice)
-    message = opened.value(PLAN.what_if.at(*STATUS))
-    assert message == "The polygon cannot be used: type numbers, and no corner twice in a row."
+    message = str(opened.value(PLAN.what_if.at(*STATUS)))
+    assert message.startswith("The polygon cannot be used: type numbers, around an area, no corner")
     assert {sheet for sheet, _ in errors_of(opened)} <= {GRASP}
 
 
 @pytest.mark.parametrize("name", GOAL_NAMES)
-@pytest.mark.parametrize("value", [0, -5, "abc", None])
+@pytest.mark.parametrize("value", [0, -5, 2e9, "abc", NA])
 def test_a_goal_that_is_no_number_above_0_is_told(name, value, opened):
-    """Every card says so and shows no divergence; what needs no goal is still there."""
+    """Every card names it and shows no divergence; what needs no goal is still there."""
     before = opened.value(PLAN.what_if.at(21, 2))
     opened.enter({name: value})
-    assert opened.values([card.at(*STATUS) for card in CARDS.values()]) == [NO_GOAL] * len(CARDS)
+    told = f"GA, {GOAL_LABELS[name]} cannot be used: type a number above 0, {UP_TO}."
+    assert opened.values([card.at(*STATUS) for card in CARDS.values()]) == [told] * len(CARDS)
     assert opened.values([card.at(33, 5) for card in CARDS.values()]) == ["-"] * len(CARDS)
     assert opened.value(PLAN.what_if.at(21, 2)) == before
-    assert errors(opened.read(GA_CELLS)) == []
+    assert len(errors(opened.read(GA_CELLS))) == (value == NA)  # the goal's own cell
 
 
 @pytest.mark.parametrize(
     "text",
-    ["cost+moment", " Moment +  COST", "STRUCTURE", "Divergence ", "deviation + cost+moment"],
+    [
+        "cost+moment",
+        " Moment +  COST",
+        "STRUCTURE",
+        "Divergence ",
+        "deviation + cost+moment",
+        "cost+cost",
+        None,
+    ],
 )
 def test_a_criterion_may_be_typed_in_any_way_that_the_reader_takes(text, opened, tmp_path):
     """Order, case and spaces do not matter: the card's value is that of the saved file's engine."""
@@ -554,24 +650,49 @@ def test_a_criterion_may_be_typed_in_any_way_that_the_reader_takes(text, opened,
     assert missed(opened.read(GA_CELLS), PLAN.what_if, card_values(task, grasp)) == []
 
 
-@pytest.mark.parametrize("value", ["abc", None])
-def test_a_place_without_three_numbers_is_told_where_it_is_used(value, opened):
-    """The card with that index says so without an error value; the others compute."""
-    opened.enter({**TYPED_GENES, FOOTPRINT: value})
-    assert opened.value(PLAN.what_if.at(*STATUS)) == BAD_INDEX
-    assert str(opened.value(PLAN.card(0).at(*STATUS))).startswith("Meets")
-    assert {sheet for sheet, _ in errors_of(opened)} <= {GRASP}
-
-
 def errors_of(office: Office) -> set[tuple[str, CellValue]]:
     """Return sheet and text of every error value of the workbook."""
     return {(cell.sheet, v) for cell, v in office.formulas().items() if errors([[v]])}
 
 
 def test_a_count_beyond_the_columns_is_told(opened):
-    """With a larger Max. typed, a total above the card's index columns is still refused."""
+    """With a larger Max. typed, a total above the card's index columns is still refused, for that reason."""
     opened.enter({"SuctionMax": 9, PLAN.what_if.genes.cell(0, 0): 6})
-    assert opened.value(PLAN.what_if.at(*STATUS)) == BAD_COUNT
+    told = "Suction Total #: the card has 5 columns; for more run grasp-xl on this workbook."
+    assert opened.value(PLAN.what_if.at(*STATUS)) == told
+
+
+BLANKS = ("FoSGoal", "MinClearance", "DensityRatio", "MomentArm", "FitnessCriterion", *GOAL_NAMES)
+
+
+@pytest.mark.parametrize("diameter", [None, 52.0])
+@pytest.mark.parametrize("name", BLANKS)
+def test_a_blank_parameter_counts_as_its_default(name, diameter, opened, tmp_path):
+    """On cards as in commands: a cleared cell takes the default, also one that depends on other inputs."""
+    odd = {"FoSGoal": 5.5, "MinClearance": 150.0, "DensityRatio": 1.0, "MomentArm": "plan"}
+    odd |= {"FitnessCriterion": "cost+moment", **dict.fromkeys(GOAL_NAMES, 999.0)}
+    opened.enter({**odd, "MagnetDiameter": diameter, "SuctionDiameter": diameter, name: None})
+    task = task_of(opened.save(tmp_path / "blank.xlsx"))
+    grasp = evaluate(task.space, task.rules, genes_of(opened.read("WhatIf")))
+    assert missed(opened.read(GA_CELLS), PLAN.what_if, card_values(task, grasp)) == []
+
+
+def test_a_polygon_that_crosses_itself_is_told(opened):
+    """Two corners swapped make edges cross: the cards say so, as the reader does."""
+    corners = opened.read("ApproximationPolygon")
+    first = CORNER.cell(0, 0)
+    swapped = {first.cell(0, axis): corners[1][axis] for axis in range(3)}
+    swapped |= {first.cell(1, axis): corners[0][axis] for axis in range(3)}
+    opened.enter(swapped)
+    assert "no edge across another" in str(opened.value(PLAN.what_if.status))
+
+
+def test_a_list_that_grew_asks_for_a_run(opened):
+    """The cards' formulas know the places as written: with a new total they say what to do."""
+    total = opened.value("SuctionTotal")
+    opened.enter({"SuctionTotal": float(total) + 1})
+    told = f"type {total:g}, the places that the cards know; for a longer list run grasp-xl"
+    assert told in str(opened.value(PLAN.what_if.status))
 
 
 def test_an_inactive_wrong_index_does_no_harm(opened):
@@ -748,6 +869,23 @@ def test_grasp_pictures_follow_a_typed_diameter(opened):
         assert np.hypot(*(edge - centre).T) == pytest.approx(diameter / 2)
         rings = np.array(opened.read(fill), dtype=float)
         assert np.hypot(*(rings - centre).T).max() < diameter / 2
+
+
+def test_places_that_change_places_are_an_edit(opened):
+    """Two rows swapped, or x and y of one place, change no sum of coordinates: "edited" all the same."""
+    first, second = opened.read("SuctionLocations")[:2]
+    places = Area(OPTION_SPACE, FIRST_LOCATION_ROW, KINDS[0].column, 2, 3)
+    swapped_axes = {places.cell(0, 0): first[1], places.cell(0, 1): first[0]}
+    swapped_rows = {
+        places.cell(row, axis): value
+        for row, point in enumerate((second, first))
+        for axis, value in enumerate(point)
+    }
+    for edit in (swapped_axes, swapped_rows):
+        opened.enter(edit)
+        assert opened.value(PLAN.what_if.at(*DIFFERENCE)) == "edited"
+        opened.undo()
+    assert opened.value(PLAN.what_if.at(*DIFFERENCE)) == 0
 
 
 # --- what a printer makes of it ---

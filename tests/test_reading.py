@@ -445,6 +445,17 @@ def test_genes_of_a_kind_without_places_are_blank(path: Path) -> None:
     assert chromosome.rows()[0] == [0, None, None, None, None, None]
 
 
+def test_an_inactive_gene_that_is_no_index_is_a_warning(path: Path) -> None:
+    """It enters no sum: it counts as unset, and does not keep anybody from working with the file."""
+    odd: Cells = {"H9": 9999, "I9": "abc", "J9": 2.5}
+    write_book(path, {SHEET: export_rows(), GA: ga_rows() | odd})
+    book = read_book(path)
+    assert book.user_chromosome is not None
+    assert book.user_chromosome.rows()[0] == [2, 1, 4, 1, 1, 1]
+    told = [(warning.where, warning.found) for warning in book.warnings]
+    assert told == [("GA!H9", "9999"), ("GA!I9", "the text 'abc'"), ("GA!J9", "2.5")]
+
+
 # --- odd polygons ---
 
 

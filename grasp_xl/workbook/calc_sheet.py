@@ -9,7 +9,7 @@ elements' convex hull.  Everything is plain cell arithmetic that Excel 2016 and 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import permutations
 
 import numpy as np
@@ -22,10 +22,12 @@ from grasp_xl.workbook.calc_inputs import (
     COLUMNS,
     FIRST_ROW,
     INPUT_COLUMN,
+    INPUTS_FAULT,
     INPUTS_USABLE,
-    SLACK,
+    used,
     write_inputs,
 )
+from grasp_xl.workbook.calc_rules import MAX_CHECKED_CORNERS, SLACK, listed
 from grasp_xl.workbook.calc_values import CalcValues
 from grasp_xl.workbook.layout import CALC, KINDS, Area, Layout
 from grasp_xl.workbook.pen import Cell, CellValue, Pen
@@ -35,11 +37,14 @@ EDGE_COLUMN = 0
 EDGE_NAMES = ("EdgeStartX", "EdgeStartY", "EdgeX", "EdgeY", "EdgeSquared")
 EDGE_HEADER = ("i", "start x", "start y", "edge x", "edge y", "squared length")
 PART_POLYGON_COLUMN = 6
+CROSSINGS_COLUMN = 8
+CROSSINGS_NAME = "EdgeCrossings"
 BLOCK_COLUMN = INPUT_COLUMN + COLUMNS + 1
 ELEMENT_HEADER = (
     "element",
     "in space",
     "active",
+    "right",
     "x",
     "y",
     "z",
@@ -49,8 +54,9 @@ ELEMENT_HEADER = (
     "least structure",
 )
 SUMMARY_HEADER = (
-    "counts in range",
-    "all in space",
+    "usable",
+    "fault",
+    "first wrong",
     "elements",
     "longest",
     "shortest",
@@ -59,12 +65,16 @@ SUMMARY_HEADER = (
     "hull area",
     "centroid inside",
 )
+FLAGS = ("in space", "active", "right", "distinct")
 MEASURED = ("longest", "shortest", "hull area")
 TABLES = ("distance (mm)", "structure if this is the main truss (mm)", "edge of the hull (mm²)")
 SAME_PLACE = "1E-9"
 """Coordinates nearer than this are the same place (mm)."""
 FAR = "1E9"
 """Beyond every row and column."""
+NO_GENES = "There are no genes: type a grasp, or run grasp-xl on this workbook to fill them in."
+NO_ELEMENT = "There is no element: type a Total # above 0."
+TWICE = ": this index a second time; type another, two elements cannot stand at one place."
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,6 +218,27 @@ def _edges(pen: Pen, space: OptionSpace) -> None:
         pen.write(row, EDGE_COLUMN + 5, squared, Style.COORDINATE, f"{x}^2+{y}^2")
     for offset, name in enumerate(EDGE_NAMES):
         pen.name_area(name, Area(CALC, FIRST_ROW, EDGE_COLUMN + 1 + offset, corners))
+    if corners <= MAX_CHECKED_CORNERS:
+        _crossings(pen, corners)
+
+
+def _crossings(pen: Pen, corners: int) -> None:
+    """Write how many edges cross each edge: those whose ends, and its own, lie on either side.
+
+    Edges that share a corner never count: one of the products is exactly 0.
+    """
+    pen.write(2, CROSSINGS_COLUMN, "crossings", Style.HEADER)
+    for row in range(FIRST_ROW, FIRST_ROW + corners):
+        x, y, dx, dy = (Area(CALC, row, EDGE_COLUMN + offset).local for offset in range(1, 5))
+        ends = (
+            f"({dx}*(EdgeStartY-{y})-{dy}*(EdgeStartX-{x}))",
+            f"({dx}*(EdgeStartY+EdgeY-{y})-{dy}*(EdgeStartX+EdgeX-{x}))",
+            f"(EdgeX*({y}-EdgeStartY)-EdgeY*({x}-EdgeStartX))",
+            f"(EdgeX*({y}+{dy}-EdgeStartY)-EdgeY*({x}+{dx}-EdgeStartX))",
+        )
+        formula = f"SUMPRODUCT(({ends[0]}*{ends[1]}<0)*({ends[2]}*{ends[3]}<0))"
+        pen.write(row, CROSSINGS_COLUMN, 0, Style.MARK, formula)
+    pen.name_area(CROSSINGS_NAME, Area(CALC, FIRST_ROW, CROSSINGS_COLUMN, corners))
 
 
 def closed_polygon(column: int, corners: int) -> Area:
@@ -263,15 +294,16 @@ def _element_cells(
     yield Cell(block.first + row, BLOCK_COLUMN, _element_name(block, row), Style.LABEL)
     if space.kinds[number].total == 0:
         for title in ELEMENT_HEADER[1:-1]:
-            yield _at(block.element(title, row), 0, Style.MARK, None)
+            yield _at(block.element(title, row), int(title == "right"), Style.MARK, None)
         yield _at(block.element("least structure", row), "", Style.COORDINATE, None)
         return
     gene, count = block.gene(number, slot + 1), block.gene(number, 0)
-    in_range = f"AND({gene}>=1,{gene}<={_listed(space, number)},{gene}=INT({gene}))"
+    in_range = f"AND({gene}>=1,{gene}<={listed(space, number)},{gene}=INT({gene}))"
     placed = f"IF(COUNT(INDEX({labels.locations_name},{gene},0))=3,1,0)"
     formulas = {
         "in space": f"IF(ISNUMBER({gene}),IF({in_range},{placed},0),0)",
         "active": f"IF(ISNUMBER({count}),IF({slot + 1}<={count},{INPUTS_USABLE},0),0)",
+        "right": _right(block, row),
         **{
             axis: f"IF({block.element('in space', row).local}=1,"
             f"INDEX({labels.locations_name},{gene},{position}),0)"
@@ -283,16 +315,21 @@ def _element_cells(
         "least structure": _row_least(block, row),
     }
     for title, formula in formulas.items():
-        style = Style.MARK if title in ("in space", "active", "distinct") else Style.COORDINATE
+        style = (
+            Style.MARK if title in ("in space", "active", "right", "distinct") else Style.COORDINATE
+        )
         yield _at(block.element(title, row), values.element(title, row), style, formula)
 
 
-def _listed(space: OptionSpace, number: int) -> str:
-    """Return how many places of a kind there are to choose from."""
-    labels = KINDS[number]
-    if not space.kinds[number].total:
-        return "0"
-    return f"MIN({labels.field('Total')},ROWS({labels.locations_name}))"
+def _right(block: CalcBlock, row: int) -> str:
+    """1 where an active index has a place, and no active one before it of its kind is the same."""
+    number, slot = divmod(row, block.slots)
+    active, in_space = (block.element(name, row).local for name in ("active", "in space"))
+    if slot == 0:
+        return f"IF({active}=1,{in_space},1)"
+    before = replace(block.genes.cell(number, 1), columns=slot).reference
+    twice = f"COUNTIF({before},{block.gene(number, slot + 1)})>0"
+    return f"IF({active}=1,IF({in_space}=0,0,IF({twice},0,1)),1)"
 
 
 def _polygon_distance(block: CalcBlock, row: int) -> str:
@@ -387,7 +424,7 @@ def _structure_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
             branches = f"SUMPRODUCT({active}*ABS({pair.cross}))/{length}"
             formula = (
                 f'IF({length}="","",IF({length}<{longest}*(1-{SLACK}),"",'
-                f"IF({length}=0,0,DensityRatio*{length}+{branches})))"
+                f"IF({length}=0,0,{used('DensityRatio')}*{length}+{branches})))"
             )
             yield _at(table.cell(i, j), values.structure[i][j], Style.COORDINATE, formula)
 
@@ -416,7 +453,7 @@ def _hull_cells(block: CalcBlock, values: CalcValues) -> Iterator[Cell]:
 
 
 def _summary_cells(block: CalcBlock, space: OptionSpace, values: CalcValues) -> Iterator[Cell]:
-    active, in_space = block.column("active").absolute, block.column("in space").absolute
+    active, right = block.column("active").absolute, block.column("right").absolute
     distances, structures, hull = (block.table(number).absolute for number in range(3))
     least = block.column("least structure").absolute
     longest = block.summary("longest").local
@@ -425,8 +462,9 @@ def _summary_cells(block: CalcBlock, space: OptionSpace, values: CalcValues) -> 
     nearly_least = f"MIN({least})+{SLACK}*{longest}"
     twice_area = f"SUM({hull})"
     formulas = {
-        "counts in range": _counts_in_range(block, space),
-        "all in space": f"IF(SUMPRODUCT({active}*(1-{in_space}))=0,1,0)",
+        "usable": f'IF({block.summary("fault").local}="",1,0)',
+        "fault": _fault(block, space),
+        "first wrong": f"IF(MIN({right})=1,0,MATCH(0,{right},0))",
         "elements": f"SUM({active})",
         "longest": f"IF(COUNT({distances})=0,0,MAX({distances}))",
         "shortest": f'IF(COUNT({distances})=0,"",MIN({distances}))',
@@ -448,16 +486,37 @@ def _first_below(axis: str, cells: str, bound: str) -> str:
     return f"SUMPRODUCT(MIN({place}+{FAR}*(1-ISNUMBER({cells})*({cells}<={bound}))))"
 
 
-def _counts_in_range(block: CalcBlock, space: OptionSpace) -> str:
-    tests = []
-    for number, labels in enumerate(KINDS):
-        count = block.gene(number, 0)
-        most = f"MIN({labels.field('Max')},{_listed(space, number)},{block.slots})"
-        in_range = f"AND({count}>={labels.field('Min')},{count}<={most},{count}=INT({count}))"
-        tests.append(f"IF(ISNUMBER({count}),IF({in_range},1,0),0)")
+def _fault(block: CalcBlock, space: OptionSpace) -> str:
+    """Return the sentence that says what keeps a card from computing; nothing where it computes."""
     total = "+".join(block.gene(number, 0) for number in range(len(KINDS)))
-    both = "*".join(tests)
-    return f"IF({both}=1,IF({total}>0,1,0),0)"
+    formula = f'IF({total}=0,"{NO_ELEMENT}",{_index_fault(block, space)})'
+    for number in reversed(range(len(KINDS))):
+        formula = _count_fault(block, space, number, otherwise=formula)
+    formula = f'IF(COUNTA({block.genes.reference})=0,"{NO_GENES}",{formula})'
+    return f"IF({INPUTS_USABLE}=0,{INPUTS_FAULT},{formula})"
+
+
+def _count_fault(block: CalcBlock, space: OptionSpace, number: int, otherwise: str) -> str:
+    labels, count = KINDS[number], block.gene(number, 0)
+    least, most = labels.field("Min"), f"MIN({labels.field('Max')},{listed(space, number)})"
+    name = f"{labels.row_label} Total #"
+    told = f'"{name}: type a whole number from "&{least}&" to "&MIN({most},{block.slots})&"."'
+    few = f'"{name}: the card has {block.slots} columns; for more run grasp-xl on this workbook."'
+    whole = f"{count}=INT({count})"
+    fits = f"AND({count}>={least},{count}<=MIN({most},{block.slots}),{whole})"
+    beyond = f"AND({count}>{block.slots},{count}<={most},{whole})"
+    return f"IF(ISNUMBER({count}),IF({fits},{otherwise},IF({beyond},{few},{told})),{told})"
+
+
+def _index_fault(block: CalcBlock, space: OptionSpace) -> str:
+    wrong = block.summary("first wrong").local
+    name, in_space = (
+        f"INDEX({block.column(title).absolute},{wrong})" for title in ("element", "in space")
+    )
+    most = f"IF({wrong}<={block.slots},{','.join(listed(space, n) for n in range(len(KINDS)))})"
+    told = f'": type a whole number from 1 to "&{most}&"."'
+    called = f'SUBSTITUTE({name}," "," Index ")'
+    return f'IF({wrong}=0,"",{called}&IF({in_space}=1,"{TWICE}",{told}))'
 
 
 def _engine_cells(block: CalcBlock, grasp: Grasp) -> Iterator[Cell]:

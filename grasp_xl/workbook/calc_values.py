@@ -77,6 +77,7 @@ class CalcValues:
         numbers: dict[str, float | str] = {
             "in space": int(self.known[row]),
             "active": int(self.active[row]),
+            "right": 1,
             "x": float(self.points[row, 0]),
             "y": float(self.points[row, 1]),
             "z": float(self.points[row, 2]),
@@ -93,8 +94,9 @@ class CalcValues:
         ends = truss_ends(self.points[rows])
         start, end = (int(rows[end]) + 1 for end in ends) if ends else (0, 0)
         numbers: dict[str, float | str] = {
-            "counts in range": 1,
-            "all in space": 1,
+            "usable": 1,
+            "fault": "",
+            "first wrong": 0,
             "elements": sum(self.active),
             "longest": max(_numbers(self.distance), default=0.0),
             "shortest": "" if self.shortest is None else self.shortest,

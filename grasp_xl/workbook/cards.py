@@ -15,12 +15,14 @@ from grasp_xl.rules import TERMS, Rules
 from grasp_xl.space import OptionSpace
 from grasp_xl.stability import support
 from grasp_xl.workbook.calc_inputs import (
+    DASH,
+    GOALS_FAULT,
     GOALS_USABLE,
     INPUTS_EDITED,
-    INPUTS_FAULT,
     INPUTS_USABLE,
-    SLACK,
+    used,
 )
+from grasp_xl.workbook.calc_rules import SLACK
 from grasp_xl.workbook.calc_sheet import CalcBlock
 from grasp_xl.workbook.layout import (
     DIVERGENCE_LABEL,
@@ -29,6 +31,7 @@ from grasp_xl.workbook.layout import (
     KINDS,
     Area,
     Card,
+    Layout,
 )
 from grasp_xl.workbook.pen import Cell, CellValue
 from grasp_xl.workbook.styles import Style
@@ -39,12 +42,6 @@ MOMENT_HEADER = ("i", "xi", "yi", "zi", "Fi.xi", "Fi.yi", "Fi.zi")
 MOMENT_UNITS = (None, "(mm)", "(mm)", "(mm)", "(N-mm)", "(N-mm)", "(N-mm)")
 AXES = ("x", "y", "z")
 GOALS = ("FoSGoal", *GOAL_NAMES)
-DASH = "-"
-BAD_COUNT = "A total is out of range: type a whole number from Min. to Max. of its kind."
-BAD_INDEX = (
-    "An active index has no place: type a whole number from 1 to its total; x, y, z are numbers."
-)
-NO_GOAL = "A goal is no number above 0: look at the goals and the user-defined chromosome."
 WEAK = "FoS is below its goal. "
 CLOSE = "Two elements are closer than the minimum distance. "
 MEETS_ALL = "Meets FoS, distance and every goal."
@@ -139,7 +136,7 @@ class LiveCard:
 
     @property
     def _valid(self) -> str:
-        return f"{INPUTS_USABLE}*{self._sum('counts in range')}*{self._sum('all in space')}=1"
+        return f"{self._sum('usable')}=1"
 
     def _when_valid(self, formula: str) -> str:
         return f'IF({self._valid},{formula},"{DASH}")'
@@ -224,7 +221,8 @@ class LiveCard:
             mean = f"SUMPRODUCT({force}*{self._column(name)})/SUM({force})"
             apart = f"{self._ref(here, 1)}-{self._ref(here, 3)}"
             yield self._cell(here, 0, f"{name}_c", Style.LABEL)
-            yield self._cell(here, 1, centroid, Style.COORDINATE, f"Centroid{name.upper()}")
+            own = _number_or_dash(f"Centroid{name.upper()}")
+            yield self._cell(here, 1, centroid, Style.COORDINATE, own)
             yield self._cell(here, 2, f"{name}_bar", Style.LABEL)
             yield self._cell(here, 3, centre, Style.COORDINATE, self._when_valid(mean))
             yield self._cell(here, 4, f"delta_{name}", Style.LABEL)
@@ -264,31 +262,17 @@ class LiveCard:
             yield self._cell(
                 row + 2, column, normalised[column], Style.RATIO, self._when_valid(ratio)
             )
-            typed = f'IF(ISBLANK({GOALS[column]}),"{DASH}",{GOALS[column]})'
-            yield self._cell(row + 3, column, goals[column], Style.RESULT, typed)
+            counts = _number_or_dash(used(GOALS[column]))
+            yield self._cell(row + 3, column, goals[column], Style.RESULT, counts)
         four = self.card.at(row + 2, 1, 1, len(TERMS)).absolute
         total = self._when_valid(f'IF({GOALS_USABLE}=1,SUM({four}),"{DASH}")')
         yield self._cell(row + 2, 5, grasp.divergence, Style.DIVERGENCE, total)
         yield self._cell(row + 3, 5, "<-- Fitness Goals", Style.NOTE)
-        status = status_text(grasp)
-        yield self._cell(row + 4, 0, status, Style.STATUS, self._status_formula())
-
-    def _status_formula(self) -> str:
-        row = self.card.summary_row
-        fos = self._ref(row + 3, 1)
-        shortest = self._sum("shortest")
-        weak = f'IF({fos}<FoSGoal*(1-{SLACK}),"{WEAK}","")'
-        close = f'IF({shortest}="","",IF({shortest}<MinClearance*(1-{SLACK}),"{CLOSE}",""))'
-        ratios = self.card.at(row + 13, 1, 1, len(TERMS)).absolute
-        meets = f'IF(MAX({ratios})<=1+{SLACK},"{MEETS_ALL}","{MEETS_SOME}")'
-        failures = f"TRIM({weak}&{close})"
-        return (
-            f"IF({INPUTS_USABLE}=0,{INPUTS_FAULT},"
-            f'IF({self._sum("counts in range")}=0,"{BAD_COUNT}",'
-            f'IF({self._sum("all in space")}=0,"{BAD_INDEX}",'
-            f'IF({GOALS_USABLE}=0,"{NO_GOAL}",'
-            f'IF({failures}="",{meets},{failures})))))'
-        )
+        fos = self._ref(self.card.summary_row + 3, 1)
+        missed = f"MAX({four})>1+{SLACK}"
+        status = status_formula(self.block, fos, missed)
+        line = self._cell(row + 4, 0, status_text(grasp), Style.STATUS, status)
+        yield replace(line, columns=self.card.columns)
 
     def _note_cells(self) -> Iterator[Cell]:
         row = self.card.summary_row + 16
@@ -371,11 +355,40 @@ class LiveCard:
             for number, cell in enumerate(self._own_units())
         )
         genes = self.card.genes
-        edited = f"SUMPRODUCT(({genes.absolute}<>{self.block.engine_genes.reference})*1)"
+        others = f"SUMPRODUCT(({genes.absolute}<>{self.block.engine_genes.reference})*1)"
+        edited = f"IF(ISERROR({others}),1,{others})"
         return (
             f'IF({edited}+{INPUTS_EDITED}>0,"edited",'
             f"{self._when_valid(f'ROUND(MAX({differences}),9)')})"
         )
+
+
+def _number_or_dash(name: str) -> str:
+    return f'IF(ISNUMBER({name}),{name},"{DASH}")'
+
+
+def status_formula(block: CalcBlock, fos: str, missed: str) -> str:
+    """Return the formula of the one-line status of a grasp: its fault, or what it meets.
+
+    Parameters
+    ----------
+    block : CalcBlock
+        Its helper cells.
+    fos : str
+        Cell of its FoS.
+    missed : str
+        Whether it misses a goal.
+    """
+    fault, shortest = (block.summary(name).reference for name in ("fault", "shortest"))
+    weak = f'IF({fos}<{used("FoSGoal")}*(1-{SLACK}),"{WEAK}","")'
+    too_close = f"{shortest}<{used('MinClearance')}*(1-{SLACK})"
+    close = f'IF({shortest}="","",IF({too_close},"{CLOSE}",""))'
+    failures = f"TRIM({weak}&{close})"
+    meets = f'IF({missed},"{MEETS_SOME}","{MEETS_ALL}")'
+    return (
+        f'IF({fault}<>"",{fault},IF({GOALS_USABLE}=0,{GOALS_FAULT},'
+        f'IF({failures}="",{meets},{failures})))'
+    )
 
 
 def status_text(grasp: Grasp) -> str:
@@ -385,14 +398,22 @@ def status_text(grasp: Grasp) -> str:
     return f"{'' if grasp.meets_fos else WEAK}{'' if grasp.is_clear else CLOSE}".strip()
 
 
-def fitness_cells(first: Area, grasp: Grasp, block: CalcBlock) -> Iterator[Cell]:
-    """Yield the criteria in their own units under the user-defined chromosome (figure 28)."""
+def user_cells(plan: Layout, grasp: Grasp, block: CalcBlock) -> Iterator[Cell]:
+    """Yield criteria in their own units and a status below the user-defined genes (figure 28)."""
+    first, line = plan.user_fitness, plan.user_status
     labels = (*FITNESS_HEADER, DIVERGENCE_LABEL)
     values = (grasp.fos, *grasp.terms, grasp.divergence)
     formulas = _block_formulas(first, block)
     for column, (label, value, formula) in enumerate(zip(labels, values, formulas, strict=True)):
         yield Cell(first.row, first.column + column, label, Style.HEADER)
         yield Cell(first.row + 1, first.column + column, value, Style.RESULT, formula)
+    missed = ",".join(
+        f"{first.cell(1, number).local}>{used(goal)}*(1+{SLACK})"
+        for number, goal in enumerate(GOAL_NAMES, 1)
+    )
+    status = status_formula(block, first.cell(1, 0).local, f"OR({missed})")
+    text = status_text(grasp)
+    yield Cell(line.row, line.column, text, Style.STATUS, status, columns=line.columns)
 
 
 def _block_formulas(first: Area, block: CalcBlock) -> list[str]:
@@ -409,7 +430,7 @@ def _block_formulas(first: Area, block: CalcBlock) -> list[str]:
     arm = f'SQRT({apart[0]}^2+{apart[1]}^2+IF(TRIM(MomentArm)="plan",0,{apart[2]}^2))'
     elements = block.summary("elements").reference
     divergence = "+".join(
-        f"IF(N({goal})<{SLACK},0,{first.cell(1, number).local}/{goal})"
+        f"IF({used(goal)}<{SLACK},0,{first.cell(1, number).local}/{used(goal)})"
         for number, goal in enumerate(GOAL_NAMES, 1)
     )
     formulas = [
@@ -420,8 +441,5 @@ def _block_formulas(first: Area, block: CalcBlock) -> list[str]:
         f"IF({elements}<2,0,MIN({block.column('least structure').reference}))",
         f'IF({GOALS_USABLE}=1,{divergence},"{DASH}")',
     ]
-    in_range, in_space = (
-        block.summary(name).reference for name in ("counts in range", "all in space")
-    )
-    valid = f"{INPUTS_USABLE}*{in_range}*{in_space}"
-    return [f'IF({valid}=1,{formula},"{DASH}")' for formula in formulas]
+    usable = block.summary("usable").reference
+    return [f'IF({usable}=1,{formula},"{DASH}")' for formula in formulas]

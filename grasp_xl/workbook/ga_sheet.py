@@ -10,11 +10,11 @@ from grasp_xl.search.result import Result
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.calc_sheet import CalcBlock
-from grasp_xl.workbook.cards import GENE_STYLES, LiveCard, chromosome_cells, fitness_cells
+from grasp_xl.workbook.cards import GENE_STYLES, LiveCard, chromosome_cells, user_cells
 from grasp_xl.workbook.designs_sheet import picked_genes
 from grasp_xl.workbook.guidance import guide_blocks, guide_card, guide_parameters
 from grasp_xl.workbook.layout import GA, Area, Card, Layout
-from grasp_xl.workbook.pen import LEAST_SCALE, PAGE_WIDTH, CellValue, Pen
+from grasp_xl.workbook.pen import LEAST_SCALE, PAGE_WIDTH, ROW_HEIGHT, CellValue, Pen
 from grasp_xl.workbook.styles import Style
 
 USER_CALC = 0
@@ -46,6 +46,7 @@ def write_ga(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) -
     _parameters(pen, plan, task)
     _blocks(pen, plan, task, result, shown)
     cards = _cards(plan, task, result, shown)
+    pen.sheet.set_row(plan.what_if.status.row, 2 * ROW_HEIGHT)  # its sentences may take two lines
     for name, live in cards.items():
         pen.put(live.cells())
         pen.name_area(name, live.card.genes)
@@ -136,8 +137,7 @@ def _blocks(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) ->
     matrix = plan.block_genes(layout.MATRIX_BLOCK)
     for row, marks in enumerate(result.matrix.tolist()):
         pen.row(matrix.row + row, matrix.column, marks, GENE_STYLES[row])
-    under = plan.block(layout.USER_BLOCK).cell(4, 0)
-    pen.put(fitness_cells(under, task.benchmark, user_block(plan)))
+    pen.put(user_cells(plan, task.benchmark, user_block(plan)))
     guide_blocks(pen, plan, task.space)
 
 

@@ -2,7 +2,7 @@
 
 Elements are filled circles of their true diameter: an outline, and under it rings drawn so thick
 that they cover the circle.  A point that is not there (no such element) is #N/A, which a chart
-leaves out.
+leaves out, and which is written in the colour of its cell.
 """
 
 from __future__ import annotations
@@ -150,6 +150,7 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
         column = _add_strokes(pen, chart, space, picture, column, frame)
         _to_scale(chart, frame, picture.title)
         pen.insert_chart(2, number * PICTURE_COLUMNS, chart)
+    pen.hide_errors(Area(GRASP, FIRST_POINT, GRASP_DATA_COLUMN, CORNERS + 1, column))
     pen.fix_row_heights()
     page = Area(GRASP, 0, 0, frame.rows, len(pictures) * PICTURE_COLUMNS)
     pen.print_pages(pictures=[page])

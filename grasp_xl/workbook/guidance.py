@@ -7,6 +7,8 @@ from typing import Any
 from grasp_xl.rules import TERMS
 from grasp_xl.space import OptionSpace
 from grasp_xl.workbook import layout
+from grasp_xl.workbook.calc_inputs import used
+from grasp_xl.workbook.calc_rules import SLACK
 from grasp_xl.workbook.layout import KINDS, Area, Card, Layout
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import Style
@@ -47,7 +49,7 @@ def guide_parameters(pen: Pen, plan: Layout) -> None:
     for field in layout.PARAMETERS:
         cell = plan.parameter(field.name)
         note = NOTES[field.name] + (GOAL_HINT if field.name in layout.GOAL_NAMES else "")
-        pen.sheet.write_comment(cell.row, 0, note, {"x_scale": 2, "font_size": 9})
+        pen.note(cell.row, 0, note)
         options = _accepted(field.name) | {"input_title": field.label[:32], "input_message": note}
         pen.sheet.data_validation(cell.row, cell.column, cell.row, cell.column, options)
 
@@ -79,8 +81,10 @@ def _between(kind: str, least: float, most: float) -> dict[str, Any]:
 
 
 def guide_blocks(pen: Pen, plan: Layout, space: OptionSpace) -> None:
-    """Put ranges on the genes of the user-defined chromosome."""
+    """Put ranges on the genes of the user-defined chromosome, and colours on what it fails."""
     _guide_genes(pen, plan.block_genes(layout.USER_BLOCK), space)
+    _colour_fos(pen, plan.user_fitness.cell(1, 0))
+    _colour_status(pen, plan.user_status)
 
 
 def _guide_genes(pen: Pen, genes: Area, space: OptionSpace) -> None:
@@ -103,13 +107,20 @@ def guide_card(pen: Pen, card: Card, space: OptionSpace) -> None:
     _guide_genes(pen, card.genes, space)
     row = card.summary_row
     ratios = card.at(row + 13, 1, 1, 4)
-    _colour(pen, ratios, f"AND(ISNUMBER({ratios.local}),{ratios.local}>1.000000001)", Style.ABOVE)
-    fos = card.at(row + 3, 1)
-    _colour(pen, fos, f"AND(ISNUMBER({fos.local}),{fos.local}<FoSGoal*0.999999999)", Style.FAILS)
+    _colour(pen, ratios, f"AND(ISNUMBER({ratios.local}),{ratios.local}>1+{SLACK})", Style.ABOVE)
+    _colour_fos(pen, card.at(row + 3, 1))
     shortest = card.at(row + 20, 5)
-    too_close = f"AND(ISNUMBER({shortest.local}),{shortest.local}<MinClearance*0.999999999)"
-    _colour(pen, shortest, too_close, Style.FAILS)
-    status = card.at(row + 15, 0, 1, card.columns)
+    least = f"{used('MinClearance')}*(1-{SLACK})"
+    _colour(pen, shortest, f"AND(ISNUMBER({shortest.local}),{shortest.local}<{least})", Style.FAILS)
+    _colour_status(pen, card.status)
+
+
+def _colour_fos(pen: Pen, fos: Area) -> None:
+    least = f"{used('FoSGoal')}*(1-{SLACK})"
+    _colour(pen, fos, f"AND(ISNUMBER({fos.local}),{fos.local}<{least})", Style.FAILS)
+
+
+def _colour_status(pen: Pen, status: Area) -> None:
     meets = f'LEFT({status.cell(0, 0).absolute},5)="Meets"'
     _colour(pen, status, f"NOT({meets})", Style.FAILS)
     _colour(pen, status, meets, Style.PASSES)

@@ -286,9 +286,20 @@ class Layout:
         title = self.block(block)
         return Area(GA, title.row + 2, title.column + 1, *self.genes)
 
+    @property
+    def user_fitness(self) -> Area:
+        """First label of the user-defined chromosome's fitness; the values stand below."""
+        return self.block(USER_BLOCK).cell(4, 0)
+
+    @property
+    def user_status(self) -> Area:
+        """What the user-defined block says of its grasp, in a line as wide as two blocks."""
+        first = self.user_fitness.cell(2, 0)
+        return Area(GA, first.row, first.column, 1, 2 * self.what_if.columns + 1)
+
     def user_term(self, number: int) -> Area:
         """Value of a term, cost first, of the user-defined chromosome: its goal by default."""
-        return self.block_genes(USER_BLOCK).cell(3, number)
+        return self.user_fitness.cell(1, 1 + number)
 
     def card(self, number: int) -> Card:
         """Return the card of a child, 0-based; the one after the last child is the What-if."""
@@ -346,6 +357,11 @@ class Card:
     def fitness(self) -> Area:
         """The five normalised values."""
         return self.at(self.summary_row + 13, 0, 1, len(FITNESS_HEADER))
+
+    @property
+    def status(self) -> Area:
+        """What the card says of its grasp, in a line."""
+        return self.at(self.summary_row + 15, 0, 1, self.columns)
 
     @property
     def divergence(self) -> Area:

@@ -11,7 +11,7 @@ import xlsxwriter
 from xlsxwriter.worksheet import Worksheet
 
 from grasp_xl.workbook.layout import Area
-from grasp_xl.workbook.styles import Formats, Style
+from grasp_xl.workbook.styles import FONT, Formats, Style
 
 A4 = 9
 """Excel's number of the paper size."""
@@ -38,7 +38,7 @@ CellValue = str | int | float | bool | None
 class Cell:
     """What one cell of a sheet holds: a value, or a formula with the value that it gives.
 
-    ``rows`` and ``columns`` above 1 merge it with the cells below and beside, for a label only.
+    ``rows`` and ``columns`` above 1 merge it with the cells below and beside.
     """
 
     row: int
@@ -69,6 +69,11 @@ class ExactWorksheet(Worksheet):  # type: ignore[misc]
     def _xml_number_element(self, number: float, attributes: Iterable[Any] = ()) -> None:
         text = "".join(f' {key}="{self._escape_attributes(value)}"' for key, value in attributes)
         self.fh.write(f"<c{text}><v>{float(number)!r}</v></c>")
+
+
+def _in_our_font(chart: Any, font: dict[str, Any] | None) -> dict[str, Any]:  # noqa: ANN401 (untyped library)
+    """Return a chart's font as XlsxWriter keeps it, or its default one, with our name."""
+    return {**(font or chart._convert_font_args({"name": FONT})), "name": FONT}  # noqa: SLF001 (no other way)
 
 
 class Pen:
@@ -123,7 +128,7 @@ class Pen:
         for cell in cells:
             if (cell.rows, cell.columns) != (1, 1):
                 area = Area(self.name, cell.row, cell.column, cell.rows, cell.columns)
-                self.span(area, cell.value, cell.style)
+                self.span(area, cell.value, cell.style, cell.formula)
             else:
                 self.write(cell.row, cell.column, cell.value, cell.style, cell.formula)
 
@@ -132,19 +137,32 @@ class Pen:
         for offset, value in enumerate(values):
             self.write(row, column + offset, value, style)
 
-    def span(self, area: Area, value: CellValue, style: Style) -> None:
-        """Write one value over merged cells."""
+    def span(self, area: Area, value: CellValue, style: Style, formula: str | None = None) -> None:
+        """Write one value, or a formula with it, over merged cells."""
         last_row, last_column = area.row + area.rows - 1, area.column + area.columns - 1
-        if (last_row, last_column) == (area.row, area.column):
-            self.write(area.row, area.column, value, style)
-            return
-        self.filled.add((area.row, area.column))
-        self.sheet.merge_range(
-            area.row, area.column, last_row, last_column, value, self.formats[style]
-        )
+        if (last_row, last_column) != (area.row, area.column):
+            look = self.formats[style]
+            self.sheet.merge_range(area.row, area.column, last_row, last_column, "", look)
+        self.write(area.row, area.column, value, style, formula)
+
+    def hide_errors(self, area: Area) -> None:
+        """Write the error values of computed cells in the colour of the cells."""
+        last_row, last_column = area.row + area.rows - 1, area.column + area.columns - 1
+        look = {"type": "errors", "format": self.formats.over(Style.HIDDEN)}
+        self.sheet.conditional_format(area.row, area.column, last_row, last_column, look)
+
+    def note(self, row: int, column: int, text: str) -> None:
+        """Put a note on a cell: it shows while the pointer is over it."""
+        look = {"x_scale": 2, "font_name": FONT, "font_size": 9}
+        self.sheet.write_comment(row, column, text, look)
 
     def insert_chart(self, row: int, column: int, chart: Any) -> None:  # noqa: ANN401 (untyped library)
-        """Place a chart at its own size, whatever the cells under it."""
+        """Place a chart at its own size, whatever the cells under it, in the font of the cells."""
+        for text in (chart.title, chart.x_axis["title"], chart.y_axis["title"]):
+            text.font = _in_our_font(chart, text.font)
+        for axis in (chart.x_axis, chart.y_axis):
+            axis["num_font"] = _in_our_font(chart, axis["num_font"])
+        chart.legend["font"] = _in_our_font(chart, chart.legend.get("font"))
         self.sheet.insert_chart(row, column, chart, {"object_position": 2})
 
     def fix_row_heights(self) -> None:

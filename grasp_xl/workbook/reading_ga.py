@@ -13,7 +13,15 @@ from grasp_xl.rules import DIVERGENCE, TERMS, Criterion, MomentArm, moment_arm
 from grasp_xl.space import OptionSpace
 from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout
-from grasp_xl.workbook.cells import LABEL_ROWS, Source, cells_of, is_blank, normal
+from grasp_xl.workbook.cells import (
+    LABEL_ROWS,
+    Source,
+    as_number,
+    cells_of,
+    is_blank,
+    normal,
+    shown,
+)
 from grasp_xl.workbook.layout import MAX_CHILDREN, MAX_GENERATIONS, MAX_SEED, Area, Field
 
 T = TypeVar("T")
@@ -201,14 +209,13 @@ def _gene_row(source: Source, space: OptionSpace, number: int, cells: list[Area]
     expected = f"a {kind.name} index, a whole number from 1 to {kind.total}"
     active: set[int] = set()
     for slot, cell in enumerate(index_cells, 1):
-        if slot > genes[0] and source.blank(cell):
+        if slot > genes[0]:
+            genes[slot] = _inactive_gene(source, cell, expected, kind.total)
             continue
         index = source.number(cell, expected, least=1, most=kind.total, whole=True)
         if index is None:
             continue
         genes[slot] = int(index)
-        if slot > genes[0]:
-            continue
         if genes[slot] in active:
             source.complain(
                 cell.where,
@@ -218,3 +225,14 @@ def _gene_row(source: Source, space: OptionSpace, number: int, cells: list[Area]
             )
         active.add(genes[slot])
     return genes
+
+
+def _inactive_gene(source: Source, cell: Area, expected: str, total: int) -> int:
+    """Read a gene that enters no sum: where it is no index, it counts as one that nobody set."""
+    index = as_number(source.value(cell))
+    if isinstance(index, float) and index.is_integer() and 1 <= index <= total:
+        return int(index)
+    if not source.blank(cell):
+        found = shown(index) if isinstance(index, float) else index.found
+        source.warn(cell.where, found, expected, f"it is inactive, and counts as {UNSET_GENE}")
+    return UNSET_GENE

@@ -13,6 +13,8 @@ from xlsxwriter import Workbook
 from xlsxwriter.format import Format
 
 FONT = "Arial"
+FIXED_FONT = {"font_name": FONT, "font_scheme": "none"}
+"""The font of every cell; with a scheme, Excel would show the theme's instead."""
 
 CYAN = "#00A0B0"
 MAGENTA = "#C2187A"
@@ -29,7 +31,8 @@ SEQUENCE = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#
 _LINE = {"border": 1, "border_color": "#BFBFBF"}
 _BAND = {"top": 1, "bottom": 1, "top_color": "#BFBFBF", "bottom_color": "#BFBFBF"}
 """A heading's line over several cells: no upright lines through its text."""
-_COMPUTED = {**_LINE, "bg_color": "#F3F5F7", "shrink": True}
+_PALE = "#F3F5F7"
+_COMPUTED = {**_LINE, "bg_color": _PALE, "shrink": True}
 _TYPED = {"font_color": "#1F3FBF", "bold": True}
 """Genes that may be typed: their rows keep the thesis's colours."""
 _INPUT = {**_LINE, "bg_color": "#FFF8D6", "font_color": "#1F3FBF", "shrink": True}
@@ -100,7 +103,8 @@ class Style(Enum):
     ABOVE = "above", {"bg_color": "#FFE08A", "font_color": "#7A4B00", "bold": True}
     FAILS = "fails", {"bg_color": "#F8C9C4", "font_color": "#9C0006", "bold": True}
     PASSES = "passes", {"bg_color": "#C9EBD2", "font_color": "#00612E"}
-    STATUS = "status", {"bold": True}
+    HIDDEN = "hidden", {"font_color": _PALE}
+    STATUS = "status", {"bold": True, "text_wrap": True, "valign": "top"}
     DIFFERENCE = "difference", {**_NUMBER, "num_format": "0.0E+00;-0.0E+00;0"}
     CENTRED = "centred", {**_COMPUTED, "align": "center"}
     DATE = "date", {**_COMPUTED, "num_format": "yyyy-mm-dd hh:mm:ss", "align": "left"}
@@ -119,6 +123,6 @@ class Formats:
 
     def __getitem__(self, style: Style) -> Format:
         if style.name not in self._made:
-            look = {"font_name": FONT, "font_size": 9, **style.look}
+            look = {**FIXED_FONT, "font_size": 9, **style.look}
             self._made[style.name] = self._book.add_format(look)
         return self._made[style.name]

@@ -24,7 +24,7 @@ from grasp_xl.workbook.option_space_sheet import write_option_space
 from grasp_xl.workbook.pen import CellValue, Pen
 from grasp_xl.workbook.run_log import Origin, write_run_log
 from grasp_xl.workbook.stamp import PLACEHOLDER, STAMP_PROPERTY, stamped
-from grasp_xl.workbook.styles import FONT, Formats
+from grasp_xl.workbook.styles import FIXED_FONT, Formats
 
 Filled = dict[str, set[tuple[int, int]]]
 """Cells that a workbook fills, by sheet."""
@@ -104,7 +104,7 @@ def _new_book(file: io.BytesIO) -> xlsxwriter.Workbook:
         {
             "in_memory": True,
             # Column widths, and so the scale of charts, are counted in digits of this font.
-            "default_format_properties": {"font_name": FONT, "font_size": 10},
+            "default_format_properties": {**FIXED_FONT, "font_size": 10},
             "strings_to_formulas": False,
             "strings_to_urls": False,
             "strings_to_numbers": False,
@@ -124,7 +124,10 @@ def _inputs(task: Task) -> dict[str, CellValue]:
         **parameter_values(task),
     }
     for labels, kind in zip(layout.KINDS, task.space.kinds, strict=True):
-        data = (kind.count_min, kind.count_max, kind.force_n, kind.price, kind.weight_g)
-        for suffix, value in zip(("Min", "Max", "Force", "Price", "Weight"), data, strict=True):
+        counts = (kind.count_min, kind.count_max)
+        data = (*counts, kind.force_n, kind.price, kind.weight_g, kind.total)
+        suffixes = ("Min", "Max", "Force", "Price", "Weight", "Total")
+        for suffix, value in zip(suffixes, data, strict=True):
             inputs[labels.field(suffix)] = value
+        inputs[labels.diameter.name] = kind.diameter_mm
     return inputs
