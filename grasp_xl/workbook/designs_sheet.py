@@ -118,6 +118,7 @@ def _picker(pen: Pen, result: Result, rows: int, unpicked: Chromosome) -> None:
     slots = result.space.gene_slots
     pick = Area(VALID_DESIGNS, PICK_ROW, 1)
     pen.write(PICK_ROW, 0, "Row to show", Style.LABEL)
+    pen.note(PICK_ROW, 0, PICK_HINT)
     pen.write(PICK_ROW, 1, None, Style.INPUT)
     in_list = f"AND({PICK_NAME}>=1,{PICK_NAME}<={rows},{PICK_NAME}=INT({PICK_NAME}))"
     usable = f"IF(ISNUMBER({PICK_NAME}),IF({in_list},1,0),0)"
