@@ -5,19 +5,28 @@ from __future__ import annotations
 import re
 import zipfile
 from collections.abc import Iterator
+from pathlib import Path
 
+import openpyxl
 import pytest
 from live_cases import random_case
 from openpyxl.utils.cell import coordinate_to_tuple, range_boundaries
 
 from grasp_xl.workbook import layout
+from grasp_xl.workbook.layout import GA
 
 
 @pytest.fixture(scope="module")
-def parts(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    """Return the text of every part of a full workbook."""
+def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Write a full workbook."""
     path = tmp_path_factory.mktemp("look") / "case.xlsx"
     path.write_bytes(random_case(1).workbook())
+    return path
+
+
+@pytest.fixture(scope="module")
+def parts(path: Path) -> dict[str, str]:
+    """Return the text of every part of it."""
     with zipfile.ZipFile(path) as book:
         return {name: book.read(name).decode() for name in book.namelist()}
 
@@ -53,3 +62,44 @@ def test_missing_points_are_not_seen(parts):
     missing = re.findall(r'<c r="([A-Z]+\d+)"[^>]*><f>[^<]*</f><v>#N/A', sheet)
     cells = [coordinate_to_tuple(cell) for cell in missing]
     assert all(left <= column <= right and top <= row <= bottom for row, column in cells)
+
+
+@pytest.fixture(scope="module")
+def book(path: Path) -> openpyxl.Workbook:
+    """Open it with openpyxl."""
+    return openpyxl.load_workbook(path)
+
+
+def test_every_input_has_a_range_and_its_label_a_note(book):
+    """Also on the option-space sheet; models are free text, and a list of words refuses by itself."""
+    fields = [field for labels in layout.KINDS for field in labels.section.fields]
+    fields += [*layout.PART.fields, *layout.PARAMETERS, layout.SCALE_FACTOR]
+    fields += [labels.diameter for labels in layout.KINDS]
+    names = [*(field.name for field in fields), "DesignPick"]
+    for name in names:
+        area = layout.area_of(book.defined_names[name].attr_text)
+        sheet = book[area.sheet]
+        ranges = [str(each.sqref) for each in sheet.data_validations.dataValidation]
+        assert area.local in ranges, name
+        assert sheet.cell(area.row + 1, area.column).comment, name
+
+
+def test_every_number_of_a_card_is_explained(book):
+    """Each label of a criterion or a sum has a note with meaning and unit, on cards and on the user's block."""
+    plan = layout.Layout(gene_slots=5, children=2)
+    for first in (plan.what_if.at(plan.what_if.summary_row + 12, 0), plan.user_fitness):
+        for column in range(5):
+            assert book[GA].cell(first.row + 1, first.column + column + 1).comment.text
+    texts = [cell.comment.text for row in book[GA].iter_rows() for cell in row if cell.comment]
+    assert all(text.endswith(".") for text in texts)
+
+
+def test_ranges_of_genes_follow_what_is_typed(book):
+    """They are names, not the numbers as written: a new Max. counts at once."""
+    found = {
+        (each.formula1, each.formula2)
+        for each in book[GA].data_validations.dataValidation
+        if each.type == "whole"
+    }
+    assert ("SuctionMin", "MIN(SuctionMax,SuctionTotal,5)") in found
+    assert ("MIN(1,MagnetTotal)", "MagnetTotal") in found

@@ -202,6 +202,7 @@ def _picker(
     shown = picked if picked and number else unpicked
     pick = Area(VALID_DESIGNS, PICK_ROW, 1)
     pen.write(PICK_ROW, 0, "No. to show", Style.LABEL)
+    pen.note(PICK_ROW, 0, PICK_HINT)
     pen.write(PICK_ROW, 1, number, Style.INPUT)
     wrong = f"No such number: type a whole number from 1 to {rows}; the best grasp is shown."
     hint = f'IF(OR({PICK_NAME}="",{_usable(rows)}),"{PICK_HINT}","{wrong}")'

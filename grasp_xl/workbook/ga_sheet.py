@@ -52,7 +52,7 @@ def write_ga(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) -
         pen.name_area(name, live.card.genes)
         pen.name_area(f"{name}Fitness", live.card.fitness)
         pen.name_area(f"{name}Divergence", live.card.divergence)
-        guide_card(pen, live.card, task.space)
+        guide_card(pen, live.card)
     _look(pen, plan)
     return list(cards.values())
 
@@ -138,7 +138,7 @@ def _blocks(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) ->
     for row, marks in enumerate(result.matrix.tolist()):
         pen.row(matrix.row + row, matrix.column, marks, GENE_STYLES[row])
     pen.put(user_cells(plan, task.benchmark, user_block(plan)))
-    guide_blocks(pen, plan, task.space)
+    guide_blocks(pen, plan)
 
 
 def user_block(plan: Layout) -> CalcBlock:

@@ -209,6 +209,8 @@ APPROXIMATION_LABEL = "Approximation polygon"
 APPROXIMATION_COLUMN = 15
 CENTROID_LABEL = "Centroid"
 DETAIL_COLUMN = 20
+DIAMETER_ROWS = (0, 2)
+"""Rows of the diameters; the models stand below each."""
 
 PARAMETERS = (
     Field("UserStart", "User-Defined Starting Chromosome"),

@@ -10,6 +10,7 @@ from grasp_xl.space import OptionSpace
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.layout import OPTION_SPACE, Area, KindLabels
 from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.space_guidance import guide_option_space
 from grasp_xl.workbook.styles import Style
 
 
@@ -31,6 +32,7 @@ def write_option_space(pen: Pen, space: OptionSpace, *, live: bool) -> None:
     if live:
         _approximation(pen, space)
         _details(pen, space)
+        guide_option_space(pen, space)
     _look(pen, space, live=live)
 
 
