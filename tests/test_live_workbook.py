@@ -246,7 +246,7 @@ def test_no_stored_value_is_needed(bracket, office, tmp_path):
         (PLAN.card(1).at(33, 5), "4.0001"),
         (PLAN.what_if.at(*STATUS), "Meets nothing."),
         (CalcBlock(0, PLAN.gene_slots, USER).element("to polygon", 0), "0"),
-        (Area(GRASP, FIRST_LOCATION_ROW, layout.GRASP_DATA_COLUMN + 3), "1.5"),
+        (Area(GRASP, FIRST_LOCATION_ROW, layout.GRASP_DATA_COLUMN + 4), "1.5"),
     ],
 )
 def test_a_wrong_stored_value_is_caught(cell, wrong, bracket, office, tmp_path):
@@ -781,7 +781,8 @@ def test_a_grasp_picture_fills_every_element_to_its_true_diameter(name):
     point = 1 / 0.75 / frame.pixels_per_mm
     shown = 0
     for row in range(picture.block.size):
-        stroke, width = grasp_sheet._fill(space, picture, row, frame)
+        stroke = grasp_sheet._fill(space, picture, row, frame)
+        width, _ = grasp_sheet._filling(space, row // picture.block.slots, frame)
         outline = grasp_sheet._outline(space, picture, row)
         if "#N/A" in outline.points[0]:
             assert {value for at in stroke.points for value in at} == {"#N/A"}
@@ -857,7 +858,7 @@ def test_a_grasp_chart_has_the_scale_of_its_frame(bracket):
 
 def test_grasp_pictures_follow_a_typed_diameter(opened):
     """The outline has the diameter as typed, and the fill stays inside it."""
-    left = layout.GRASP_DATA_COLUMN + 3
+    left = layout.GRASP_DATA_COLUMN + 4
     fill, outline = (
         Area(GRASP, grasp_sheet.FIRST_POINT, left + 2 * column, rows, 2)
         for column, rows in ((0, len(grasp_sheet.FILL)), (10 + 1 + 10, len(grasp_sheet.OUTLINE)))

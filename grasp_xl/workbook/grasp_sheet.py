@@ -142,8 +142,12 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
     pen.row(2, column, ("cosine", "sine"), Style.HEADER)
     for row, unit in enumerate((*OUTLINE, *FILL), FIRST_POINT):
         pen.row(row, column, unit, Style.COORDINATE)
-    column += 3
     frame = frame_of(space)
+    pen.write(2, column + 2, "inset of the filling", Style.HEADER)
+    for number in range(len(KINDS)):
+        cell = _inset_cell(number)
+        pen.write(cell.row, cell.column, _filling(space, number, frame)[1], Style.COORDINATE)
+    column += 4
     for number, picture in enumerate(pictures):
         chart = book.add_chart({"type": "scatter", "subtype": "straight"})
         _add_background(chart, space)
@@ -221,8 +225,9 @@ def _strokes(
     block = picture.block
     rows = [row for row in range(block.size) if space.kinds[row // block.slots].total]
     for row in rows:
-        stroke, width = _fill(space, picture, row, frame)
-        yield "", stroke, _line(FILL_COLOURS[row // block.slots], width)
+        number = row // block.slots
+        look = _line(FILL_COLOURS[number], _filling(space, number, frame)[0])
+        yield "", _fill(space, picture, row, frame), look
     ends = Area(GRASP, FIRST_POINT, column + 2 * len(rows), 2)
     yield "Main truss", _main_truss(picture), _line(RED, 3.5)
     for row in rows:
@@ -315,25 +320,33 @@ def _diameter_mm(space: OptionSpace, number: int) -> float:
     return space.kinds[number].diameter_mm or DEFAULT_DIAMETERS_MM[number]
 
 
+def _filling(space: OptionSpace, number: int, frame: Frame) -> tuple[float, float]:
+    """Return the width of the rings' line (points), and how far inside the edge it runs (mm)."""
+    width = frame.line_points(RING_WIDTH * _diameter_mm(space, number) / 2)
+    return width, (width + EDGE / 2) / 2 / POINTS_PER_PIXEL / frame.pixels_per_mm
+
+
+def _inset_cell(number: int) -> Area:
+    """Return where a filling's inset stands: a formula with the number would not outlast a run."""
+    return Area(GRASP, FIRST_POINT + number, GRASP_DATA_COLUMN + 2)
+
+
 def _outline(space: OptionSpace, picture: Picture, row: int) -> Stroke:
     """Draw the edge of an element at its true diameter."""
-    return _circle(space, picture, row, 0.0, slice(0, len(OUTLINE)))
+    return _circle(space, picture, row, slice(0, len(OUTLINE)))
 
 
-def _fill(space: OptionSpace, picture: Picture, row: int, frame: Frame) -> tuple[Stroke, float]:
-    """Fill an element up to its outline; return the rings and the width of their line (points).
+def _fill(space: OptionSpace, picture: Picture, row: int, frame: Frame) -> Stroke:
+    """Fill an element up to its outline with rings.
 
     Excel draws later series over earlier ones, LibreOffice the other way: neither covers another.
     """
-    radius = _diameter_mm(space, row // picture.block.slots) / 2
-    width = frame.line_points(RING_WIDTH * radius)
-    inset_mm = (width + EDGE / 2) / 2 / POINTS_PER_PIXEL / frame.pixels_per_mm
-    units = slice(len(OUTLINE), len(OUTLINE) + len(FILL))
-    return _circle(space, picture, row, inset_mm, units), width
+    _, inset_mm = _filling(space, row // picture.block.slots, frame)
+    return _circle(space, picture, row, slice(len(OUTLINE), len(OUTLINE) + len(FILL)), inset_mm)
 
 
 def _circle(
-    space: OptionSpace, picture: Picture, row: int, inset_mm: float, units: slice
+    space: OptionSpace, picture: Picture, row: int, units: slice, inset_mm: float = 0.0
 ) -> Stroke:
     """Draw circles about an element, so far inside its edge, from some of the unit points."""
     block, here = picture.block, _places(picture).get(row)
@@ -342,7 +355,7 @@ def _circle(
     radius_mm = max(0.0, _diameter_mm(space, number) / 2 - inset_mm)
     radius = f"IF(ISNUMBER({name}),{name},{assumed:g})/2"
     if inset_mm:
-        radius = f"MAX(0,{radius}-{inset_mm!r})"
+        radius = f"MAX(0,{radius}-{_inset_cell(number).absolute})"
     active = block.element("active", row).reference
     x, y = (block.element(axis, row).reference for axis in ("x", "y"))
     points: list[Pair] = []
