@@ -20,6 +20,7 @@ from grasp_xl.rounding import rounded_down, rounded_up
 from grasp_xl.rules import Requirements
 from grasp_xl.search.feasibility import lifting_counts, lifting_force, max_fos
 from grasp_xl.search.placing import Active, place
+from grasp_xl.search.warm import seconds_loading
 from grasp_xl.space import MAX_COUNT, OptionSpace
 
 Counts = tuple[int, ...]
@@ -101,7 +102,9 @@ def any_feasible(
     began, proved = time.perf_counter(), True
     for tried, counts in enumerate(least):
         left = began + SEARCH_SECONDS - time.perf_counter()
+        loading = seconds_loading()
         placing = place(space, counts, requirements.clearance_mm, left / (len(least) - tried))
+        began += seconds_loading() - loading
         if placing.active:
             return from_active(space, placing.active)
         proved &= placing.proved
@@ -190,7 +193,10 @@ class _Explainer:
         left = self.deadline - time.perf_counter()
         if left <= 0:
             return None
-        return place(self.space, counts, clearance_mm, min(left, PLACE_SECONDS)).active
+        loading = seconds_loading()
+        placing = place(self.space, counts, clearance_mm, min(left, PLACE_SECONDS))
+        self.deadline += seconds_loading() - loading
+        return placing.active
 
     def _fits(self, counts: Counts) -> bool:
         return self._place(counts, self.need.clearance_mm) is not None

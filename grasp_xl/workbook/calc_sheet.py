@@ -171,7 +171,8 @@ def write_calc(
     _widths(pen, blocks[0][1])
     pen.sheet.freeze_panes(FIRST_ROW, 0)
     edges = Area(CALC, 0, 0, FIRST_ROW + len(space.ideal_polygon_mm) + 1, INPUT_COLUMN - 1)
-    pen.print_pages(edges, Area(CALC, 1, INPUT_COLUMN, FIRST_ROW + watched + 5, COLUMNS))
+    shown = Area(CALC, 1, INPUT_COLUMN, FIRST_ROW + watched + 5, COLUMNS)
+    pen.print_pages(edges, pictures=[shown])
 
 
 def _widths(pen: Pen, block: CalcBlock) -> None:

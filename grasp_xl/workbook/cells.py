@@ -341,7 +341,7 @@ def same_formula(text: str | None) -> str:
     >>> same_formula("=Sum( $A$1 , 'GA'!B2)"), same_formula("IF(A1<1E-9,TRUE(),2.50)")
     ('SUM(A1,GA!B2)', 'IF(A1<1e-09,TRUE,2.5)')
     """
-    plain = re.sub(r"[\s$']|(?<=TRUE)\(\)", "", (text or "").upper()).removeprefix("=")
+    plain = re.sub(r"[\s$']|(?<=TRUE|ALSE)\(\)", "", (text or "").upper()).removeprefix("=")
     return _NUMBER.sub(lambda number: f"{float(number[0]):.12g}", plain)
 
 

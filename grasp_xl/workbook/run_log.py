@@ -94,13 +94,14 @@ def write_run_log(
             _write_value(pen, row, value)
         if name:
             pen.name_area(name, Area(RUN_LOG, row, 1))
-    row = len(rows) + 3
-    pen.write(row, 0, "Parameters", Style.HEADING)
-    row = _write_inputs(pen, row + 1, parameter_rows(task)) + 1
+    inputs = len(rows) + 3
+    pen.write(inputs, 0, "Parameters", Style.HEADING)
+    row = _write_inputs(pen, inputs + 1, parameter_rows(task)) + 1
     pen.write(row, 0, "Option space (lists: hashes)", Style.HEADING)
     row = _write_inputs(pen, row + 1, space_rows(task.space))
     pen.widths(0, 32, VALUE_WIDTH)
-    pen.print_pages(pictures=[Area(RUN_LOG, 0, 0, row, 2)])
+    pages = [Area(RUN_LOG, 0, 0, inputs - 1, 2), Area(RUN_LOG, inputs, 0, row - inputs, 2)]
+    pen.print_pages(pictures=pages)
 
 
 def _write_inputs(pen: Pen, row: int, inputs: dict[str, CellValue]) -> int:
