@@ -31,7 +31,7 @@ from grasp_xl.workbook.layout import (
     OPTION_SPACE,
     Area,
 )
-from grasp_xl.workbook.pen import Pen
+from grasp_xl.workbook.pen import ROW_HEIGHT, Pen
 from grasp_xl.workbook.styles import (
     BLACK,
     BLUE,
@@ -40,26 +40,36 @@ from grasp_xl.workbook.styles import (
     DARK_MAGENTA,
     GREEN,
     MAGENTA,
+    PALE_CYAN,
+    PALE_MAGENTA,
     RED,
     Style,
 )
 
-PLACE_COLOURS = (CYAN, MAGENTA)
+PLACE_COLOURS = (PALE_CYAN, PALE_MAGENTA)
+"""Pale, since LibreOffice draws places over the marks that fill elements; Excel, under them."""
+FILLS = (CYAN, MAGENTA)
 ELEMENT_COLOURS = (DARK_CYAN, DARK_MAGENTA)
 CORNERS = 36
 """Corners of a circle."""
-PLOT_WIDTH, PLOT_HEIGHT = 600, 400
-"""Inner plot area of a picture (pixels); both axes get the same millimetres a pixel."""
-FRAME, LEGEND = 80, 50
-"""Pixels around the plot area for axes and titles, and below them for the legend's many lines."""
-X_UNITS, Y_UNITS = 12, 8
-"""Tick distances from the middle to the edges: the proportion of the plot area."""
-ROUND_STEPS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
-MARGIN = 0.04
+PLOT_WIDTH, PLOT_HEIGHT = 640, 460
+"""Most that the inner plot area of a picture takes (pixels)."""
+LEFT, TOP, BOTTOM, RIGHT = 70, 44, 136, 20
+"""Pixels around the plot area: for axis and title, and below for the legend's many lines too."""
+LEAST_WIDTH = 480
+"""Of a picture (pixels), for the legend's sake."""
+MARGIN = 0.02
 """Free part of the extent on each side."""
-PICTURE_COLUMNS = 12
-"""Of the default width: LibreOffice makes others wider, and stretches the picture with them."""
-PICTURE_ROWS = 35
+TICKS = 10
+"""Most intervals between labels of the longer axis; axes end at quarters of one."""
+ROUND_STEPS = (1.0, 2.0, 5.0, 10.0)
+POINTS = 0.75
+"""Points of a pixel."""
+LARGEST_MARKER = 72
+"""Points of Excel's largest marker: of still larger elements only the middle is filled."""
+COLUMN_WIDTH = 64
+"""Pixels of a column of the default width."""
+
 FIRST_POINT = 3
 NO_POINT = "#N/A"
 
@@ -94,16 +104,18 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
     for row, turn in enumerate(turns.tolist(), FIRST_POINT):
         pen.row(row, column, (math.cos(turn), math.sin(turn)), Style.COORDINATE)
     column += 3
+    frame = Frame.of(space)
+    columns = 1 + math.ceil(frame.width / COLUMN_WIDTH)
     for number, picture in enumerate(pictures):
         chart = book.add_chart({"type": "scatter", "subtype": "straight"})
         _add_background(chart, space)
-        column = _add_strokes(pen, chart, space, picture, column)
-        _to_scale(chart, space, picture.title)
-        pen.insert_chart(2, number * PICTURE_COLUMNS, chart)
+        column = _add_strokes(pen, chart, space, picture, column, frame)
+        frame.put_on(chart, picture.title)
+        pen.insert_chart(2, number * columns, chart)
     pen.hide_errors(Area(GRASP, FIRST_POINT, GRASP_DATA_COLUMN, CORNERS + 1, column))
     pen.fix_row_heights()
-    page = Area(GRASP, 0, 0, PICTURE_ROWS, len(pictures) * PICTURE_COLUMNS)
-    pen.print_pages(pictures=[page])
+    rows = 3 + math.ceil(frame.height * POINTS / ROW_HEIGHT)
+    pen.print_pages(pictures=[Area(GRASP, 0, 0, rows, len(pictures) * columns)])
 
 
 def _series(name: str, x: Area, y: Area, look: dict[str, Any]) -> dict[str, Any]:
@@ -143,10 +155,11 @@ def _add_strokes(
     space: OptionSpace,
     picture: Picture,
     column: int,
+    frame: Frame,
 ) -> int:
     """Draw trusses, elements and centres; return the next free column."""
     unnamed = []
-    for name, stroke, look in _strokes(space, picture, column):
+    for name, stroke, look in _strokes(space, picture, column, frame):
         pen.write(2, column, name or "(more)", Style.HEADER)
         for row, (point, formulas) in enumerate(
             zip(stroke.points, stroke.formulas, strict=True), FIRST_POINT
@@ -154,18 +167,17 @@ def _add_strokes(
             for axis in range(2):
                 pen.write(row, column + axis, point[axis], Style.COORDINATE, formulas[axis])
         x = Area(GRASP, FIRST_POINT, column, len(stroke.points))
-        if look is not None:
-            chart.add_series(_series(name, x, Area(GRASP, x.row, column + 1, x.rows), look))
-            if not name:
-                unnamed.append(len(chart.series) - 1)
+        chart.add_series(_series(name, x, Area(GRASP, x.row, column + 1, x.rows), look))
+        if not name:
+            unnamed.append(len(chart.series) - 1)
         column += 2
     chart.set_legend({"position": "bottom", "delete_series": unnamed})
     return column + 1
 
 
 def _strokes(
-    space: OptionSpace, picture: Picture, column: int
-) -> Iterator[tuple[str, Stroke, dict[str, Any] | None]]:
+    space: OptionSpace, picture: Picture, column: int, frame: Frame
+) -> Iterator[tuple[str, Stroke, dict[str, Any]]]:
     """Yield name, points and look, from the bottom up; only one of a group has a name."""
     block = picture.block
     ends = Area(GRASP, FIRST_POINT, column, 2)
@@ -176,6 +188,10 @@ def _strokes(
         if space.kinds[row // block.slots].total:
             yield "" if named else "Branch trusses", _branch(picture, row, ends), _line(RED, 1)
             named = True
+    for number, kind in enumerate(space.kinds):
+        if kind.total:
+            look = _mark("circle", FILLS[number], frame.marker(_diameter(space, number)))
+            yield "", _middles(picture, number), look
     for row in range(block.size):
         number = row // block.slots
         if space.kinds[number].total:
@@ -250,12 +266,28 @@ def _branch(picture: Picture, row: int, ends: Area) -> Stroke:
     return Stroke(points, formulas)
 
 
+def _diameter(space: OptionSpace, number: int) -> float:
+    return space.kinds[number].diameter_mm or DEFAULT_DIAMETERS_MM[number]
+
+
+def _middles(picture: Picture, number: int) -> Stroke:
+    """Return where the elements of a kind stand, for the marks that fill their circles."""
+    block, places = picture.block, _places(picture)
+    points: list[Pair] = []
+    formulas = []
+    for row in range(number * block.slots, (number + 1) * block.slots):
+        active, x, y = (block.element(name, row).reference for name in ("active", "x", "y"))
+        points.append(_pair(places[row]) if row in places else (NO_POINT, NO_POINT))
+        formulas.append((f"IF({active}=1,{x},NA())", f"IF({active}=1,{y},NA())"))
+    return Stroke(points, formulas)
+
+
 def _circle(space: OptionSpace, picture: Picture, row: int) -> Stroke:
     """Draw an element at its true diameter."""
     block, places = picture.block, _places(picture)
     number = row // block.slots
     labels, assumed = KINDS[number], DEFAULT_DIAMETERS_MM[number]
-    diameter = space.kinds[number].diameter_mm or assumed
+    diameter = _diameter(space, number)
     name = labels.diameter.name
     radius = f"IF(ISNUMBER({name}),{name},{assumed:g})/2"
     active = block.element("active", row).reference
@@ -280,49 +312,91 @@ def _circle(space: OptionSpace, picture: Picture, row: int) -> Stroke:
     return Stroke(points, formulas)
 
 
-def _to_scale(chart: Any, space: OptionSpace, title: str) -> None:  # noqa: ANN401 (untyped library)
-    middle, unit = _frame(space)
-    half = (X_UNITS * unit, Y_UNITS * unit)
-    for number, set_axis in enumerate((chart.set_x_axis, chart.set_y_axis)):
-        set_axis(
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """What a picture shows, and its size: as many pixels a millimetre in x as in y.
+
+    Parameters
+    ----------
+    low_mm, high_mm : tuple of float
+        Ends of both axes.
+    tick_mm : float
+        Distance of labels.
+    scale : float
+        Pixels of a millimetre.
+    """
+
+    low_mm: tuple[float, float]
+    high_mm: tuple[float, float]
+    tick_mm: float
+    scale: float
+
+    @classmethod
+    def of(cls, space: OptionSpace) -> Frame:
+        """Return the smallest frame around all places, elements and polygons."""
+        points = [space.approximation_polygon_mm[:, :2], space.ideal_polygon_mm[:, :2]]
+        for number, kind in enumerate(space.kinds):
+            radius = _diameter(space, number) / 2
+            points += [kind.footprints_mm[:, :2] - radius, kind.footprints_mm[:, :2] + radius]
+        everything = np.vstack(points)
+        low, high = everything.min(axis=0), everything.max(axis=0)
+        free = MARGIN * float((high - low).max())
+        low, high = low - free, high + free
+        needed = float((high - low).max()) / TICKS
+        power = 10.0 ** math.floor(math.log10(needed))
+        tick = next(step * power for step in ROUND_STEPS if step * power >= needed)
+        step = tick / 4
+        low, high = np.floor(low / step) * step, np.ceil(high / step) * step
+        scale = float(min(np.array([PLOT_WIDTH, PLOT_HEIGHT]) / (high - low)))
+        (left, bottom), (right, top) = low.tolist(), high.tolist()
+        return cls((left, bottom), (right, top), tick, scale)
+
+    @property
+    def plot(self) -> tuple[float, float]:
+        """Width and height of the plot area (pixels)."""
+        (left, bottom), (right, top) = self.low_mm, self.high_mm
+        return self.scale * (right - left), self.scale * (top - bottom)
+
+    @property
+    def width(self) -> int:
+        """Of the whole picture (pixels)."""
+        return max(LEAST_WIDTH, math.ceil(LEFT + self.plot[0] + RIGHT))
+
+    @property
+    def height(self) -> int:
+        """Of the whole picture (pixels)."""
+        return math.ceil(TOP + self.plot[1] + BOTTOM)
+
+    def marker(self, diameter_mm: float) -> int:
+        """Return the size of a marker that fills a circle (points), within its line."""
+        return max(2, min(LARGEST_MARKER, int(self.scale * diameter_mm * POINTS)))
+
+    def put_on(self, chart: Any, title: str) -> None:  # noqa: ANN401 (untyped library)
+        """Give a chart this size, these axes, and its plot area within them."""
+        for number, set_axis in enumerate((chart.set_x_axis, chart.set_y_axis)):
+            set_axis(
+                {
+                    "name": "xy"[number] + " (mm)",
+                    "min": self.low_mm[number],
+                    "max": self.high_mm[number],
+                    "major_unit": self.tick_mm,
+                    "num_format": "0.###",
+                    "label_position": "low",
+                    "crossing": "min",
+                    "major_gridlines": {"visible": False},
+                }
+            )
+        width, height = self.plot
+        left = (self.width - width + LEFT - RIGHT) / 2
+        chart.set_size({"width": self.width, "height": self.height})
+        chart.set_plotarea(
             {
-                "name": "xy"[number] + " (mm)",
-                "min": middle[number] - half[number],
-                "max": middle[number] + half[number],
-                "major_unit": 4 * unit,
-                "num_format": "0.###",
-                "label_position": "low",
-                "crossing": "min",
-                "major_gridlines": {"visible": False},
+                "layout": {
+                    "x": left / self.width,
+                    "y": TOP / self.height,
+                    "width": width / self.width,
+                    "height": height / self.height,
+                }
             }
         )
-    width, height = PLOT_WIDTH + 2 * FRAME, PLOT_HEIGHT + 2 * FRAME + LEGEND
-    chart.set_size({"width": width, "height": height})
-    chart.set_plotarea(
-        {
-            "layout": {
-                "x": FRAME / width,
-                "y": FRAME / 2 / height,
-                "width": PLOT_WIDTH / width,
-                "height": PLOT_HEIGHT / height,
-            }
-        }
-    )
-    chart.set_title({"name": title, "name_font": {"size": 11}})
-
-
-def _frame(space: OptionSpace) -> tuple[tuple[float, float], float]:
-    """Return the middle of the picture (mm), and the millimetres between its tick marks.
-
-    Both are round numbers, so that the axes are labelled by round numbers.
-    """
-    points = [kind.footprints_mm for kind in space.kinds]
-    everything = np.vstack([*points, space.approximation_polygon_mm, space.ideal_polygon_mm])[:, :2]
-    low, high = everything.min(axis=0), everything.max(axis=0)
-    extent = (high - low) * (1 + 2 * MARGIN)
-    # Half a unit is lost where the middle moves to a round number.
-    needed = max(extent[0] / 2 / (X_UNITS - 0.5), extent[1] / 2 / (Y_UNITS - 0.5))
-    power = 10.0 ** math.floor(math.log10(needed))
-    unit = next(step * power for step in ROUND_STEPS if step * power >= needed)
-    x, y = (round(float(middle) / unit) * unit for middle in (low + high) / 2)
-    return (x, y), unit
+        chart.set_title({"name": title, "name_font": {"size": 11}})
