@@ -750,14 +750,26 @@ def test_places_that_change_places_are_an_edit(opened):
 
 @pytest.mark.parametrize("paper_mm", [(297.0, 210.0), (279.4, 215.9)], ids=["A4", "Letter"])
 def test_no_page_is_cut(paper_mm, bracket, office):
-    """Each print area takes one page, in either paper; only the list of 104 magnets takes three."""
+    """Each print area takes one page, in either paper; only the list of 104 magnets takes four."""
     need_arial()
     office.open(bracket)
     with zipfile.ZipFile(bracket) as parts:
         book = parts.read("xl/workbook.xml").decode()
     areas = re.findall(r"_xlnm.Print_Area[^>]*>([^<]*)<", book)
     assert len(areas) == len(layout.SHEETS)
-    assert office.pages(*paper_mm) == sum(area.count("!") for area in areas) + 2
+    assert office.pages(*paper_mm) == sum(area.count("!") for area in areas) + 3
+
+
+def test_wide_cards_are_whole(office, tmp_path):
+    """With a Max. of 8 still each print area takes one page."""
+    need_arial()
+    path = tmp_path / "wide.xlsx"
+    path.write_bytes(random_case(18).workbook())
+    with zipfile.ZipFile(path) as parts:
+        book = parts.read("xl/workbook.xml").decode()
+    areas = re.findall(r"_xlnm.Print_Area[^>]*>([^<]*)<", book)
+    office.open(path)
+    assert office.pages(297.0, 210.0) == sum(area.count("!") for area in areas)
 
 
 # --- formulas that every program has ---
