@@ -31,6 +31,9 @@ MOST_CHILDREN = 50
 MOST_SEED = 2**53
 """The bounds of the workbook's cells; a test holds them equal."""
 
+MOST_DESIGNS = 1000
+"""Most designs that ``solve`` lists."""
+
 STARTS = ("user", "random")
 
 CYCLES_AFTER = 100_000
@@ -124,6 +127,17 @@ def _start(text: str) -> str:
     raise _refused("--start", text, " or ".join(STARTS))
 
 
+def _file(option: str) -> Callable[[str], Path]:
+    """Make a parser of file names; an empty one would mean the folder."""
+
+    def parse(text: str) -> Path:
+        if text.strip():
+            return Path(text)
+        raise _refused(option, text, "the name of a file")
+
+    return parse
+
+
 def _above_0(option: str) -> Callable[[str], float]:
     return _number(option, f"a number above 0, to {MOST:g}", least=LEAST_ABOVE_0)
 
@@ -135,10 +149,19 @@ def _option(name: str, parser: Callable[[str], Any], metavar: str, told: str) ->
 File = Annotated[
     Path, typer.Argument(help="Workbook: an exported option-space sheet, or a full workbook.")
 ]
-Book = Annotated[Path, typer.Option("-o", "--output", help="Workbook to write.")]
+Book = Annotated[
+    Path,
+    typer.Option("-o", "--output", parser=_file("-o"), metavar="FILE", help="Workbook to write."),
+]
 MaybeBook = Annotated[
     Path | None,
-    typer.Option("-o", "--output", help="Workbook to write (default NAME-result.xlsx)."),
+    typer.Option(
+        "-o",
+        "--output",
+        parser=_file("-o"),
+        metavar="FILE",
+        help="Workbook to write (default NAME-result.xlsx).",
+    ),
 ]
 Cups = Annotated[
     Sequence[int] | None,
@@ -244,12 +267,40 @@ Seconds = Annotated[
         "Stop after so many seconds of search.",
     ),
 ]
+DesignCount = Annotated[
+    int,
+    _option("--top", _whole("--top", 1, MOST_DESIGNS), "K", "List the K best grasps."),
+]
+Gap = Annotated[
+    float,
+    _option(
+        "--gap",
+        _number("--gap", f"a number from 0 to {MOST:g}", least=0),
+        "NUMBER",
+        "Stop within this fraction of the best value; 0 proves it.",
+    ),
+]
+MeetGoals = Annotated[bool, typer.Option("--meet-goals", help="Only grasps that meet all goals.")]
+LeastElements = Annotated[
+    int,
+    _option(
+        "--min-elements",
+        _whole("--min-elements", 1),
+        "N",
+        "Only grasps of N or more elements.",
+    ),
+]
 GoOn = Annotated[
     bool, typer.Option("--continue", help="Go on from the run that the workbook holds.")
 ]
 History = Annotated[
     Path | None,
-    typer.Option("--history", help="Write every change of the fittest to this CSV file."),
+    _option(
+        "--history",
+        _file("--history"),
+        "FILE",
+        "Write every change of the fittest to this CSV file.",
+    ),
 ]
 InPlace = Annotated[bool, typer.Option("--in-place", help="Replace the input workbook.")]
 Force = Annotated[
@@ -386,7 +437,7 @@ def check(
     show.compile_notice(quiet=quiet)
     try:
         checked = commands.check(file, options)
-    except (InputError, InfeasibleError) as error:
+    except InputError as error:
         if not as_json:
             raise
         _print_json(reporting.failed_check_json(error))
@@ -397,6 +448,10 @@ def check(
         _print_json(reporting.check_json(checked))
     elif not quiet:
         show.check(checked)
+    if checked.obstacle and as_json:
+        raise typer.Exit(checked.obstacle.exit_code)
+    if checked.obstacle:
+        raise checked.obstacle
 
 
 @app.command()
@@ -520,7 +575,7 @@ def run(
         elitism=False if no_elitism else None,
         user_start=None if start is None else start == "user",
     )
-    show.compile_notice(quiet=quiet)
+    show.compile_notice(quiet=quiet, module="evolution")
     with stop_on_ctrl_c() as interrupt, show.progress(quiet=quiet) as bar:
 
         def stop(task: Task) -> list[StopRule]:
@@ -543,6 +598,58 @@ def run(
     elif not quiet:
         show.run(task, result, seconds, path)
     if result.stop_reason == "interrupted":
+        raise typer.Exit(130)
+
+
+@app.command()
+def solve(
+    file: File,
+    time_limit: Seconds = None,
+    top: DesignCount = 1,
+    gap: Gap = 0.0,
+    meet_goals: MeetGoals = False,
+    min_elements: LeastElements = 1,
+    goals: GoalList = None,
+    fos: Fos = None,
+    clearance: Clearance = None,
+    density_ratio: Density = None,
+    criterion: CriterionName = None,
+    moment_arm: Arm = None,
+    seed: Seed = None,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Find the best grasp of all, and prove that there is no better one; writes no file.
+
+    Example: grasp-xl solve workbooks/door_frame.xlsx --top 3
+    """
+    from grasp_xl import commands, reporting, show
+    from grasp_xl.search.exact import ExactSettings
+    from grasp_xl.search.stop import stop_on_ctrl_c
+
+    options = _parameters(goals, fos, clearance, density_ratio, criterion, moment_arm, seed)
+    limit = math.inf if time_limit is None else time_limit
+    settings = ExactSettings(limit, gap, top, meet_goals, min_elements)
+    show.compile_notice(quiet=quiet, module="exact", seconds=20)
+    try:
+        with stop_on_ctrl_c() as interrupt, show.proof_progress(quiet=quiet) as shown:
+            solved = commands.solve(file, options, settings, interrupt=interrupt, on_progress=shown)
+    except InfeasibleError as error:
+        if not as_json:
+            raise
+        _print_json(reporting.failed_solve_json(error))
+        raise typer.Exit(error.exit_code) from error
+    if not quiet:
+        show.warnings(solved.task.warnings)
+    if as_json:
+        _print_json(reporting.solve_json(solved))
+    elif solved.obstacle:
+        raise solved.obstacle
+    elif not quiet:
+        show.solve(solved)
+    if solved.obstacle:
+        raise typer.Exit(solved.obstacle.exit_code)
+    if solved.interrupted:
         raise typer.Exit(130)
 
 

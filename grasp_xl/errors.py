@@ -86,6 +86,20 @@ class OutputError(GraspError):
 
 
 class InfeasibleError(GraspError):
-    """No grasp of this option space can meet the constraints."""
+    """No grasp of this option space can meet the constraints.
+
+    Parameters
+    ----------
+    message, where, hint
+        As in ``GraspError``.
+    proved : bool
+        False where none was found in the time there was.
+    """
 
     exit_code = 4
+
+    def __init__(
+        self, message: str, *, where: str = "", hint: str = "", proved: bool = True
+    ) -> None:
+        super().__init__(message, where=where, hint=hint)
+        self.proved = proved

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from grasp_xl.errors import GraspError, InputError, Problem
+from grasp_xl.errors import GraspError, InfeasibleError, InputError, Problem
 from grasp_xl.rules import TERMS, Rules
 
 if TYPE_CHECKING:
-    from grasp_xl.commands import Checked
+    from grasp_xl.commands import Checked, Solved
     from grasp_xl.grasp import Grasp
     from grasp_xl.search.result import Result
     from grasp_xl.task import Task
@@ -64,6 +65,32 @@ def run_json(result: Result, seconds: float, output: str) -> Json:
     }
 
 
+def solve_json(solved: Solved) -> Json:
+    """Return the outcome of an exact search, and why there is no grasp where there is none."""
+    proof, rules = solved.proof, solved.task.rules
+    return {
+        "status": proof.status,
+        "bound": proof.bound if math.isfinite(proof.bound) else None,
+        "gap": proof.gap,
+        "designs": [grasp_json(grasp, rules) for grasp in proof.designs],
+        "floors": solved.floors._asdict() if solved.floors else None,
+        "goals": goals_json(rules),
+        "seconds": solved.seconds,
+        "output": None,
+        **(error_json(solved.obstacle) if solved.obstacle else {}),
+    }
+
+
+def failed_solve_json(error: InfeasibleError) -> Json:
+    """Return what ``solve`` says where no grasp can serve as the benchmark."""
+    return {
+        "status": "infeasible" if error.proved else "unknown",
+        "designs": [],
+        **dict.fromkeys(("bound", "gap", "floors", "goals", "seconds", "output")),
+        **error_json(error),
+    }
+
+
 def new_json(task: Task, output: str) -> Json:
     """Return what ``new`` made."""
     return {
@@ -75,35 +102,34 @@ def new_json(task: Task, output: str) -> Json:
 
 
 def check_json(checked: Checked) -> Json:
-    """Return what ``check`` found in a sound file."""
+    """Return what ``check`` found in a readable file."""
     cups, magnets = checked.space.kinds
+    error = checked.obstacle
     return {
-        "ok": True,
-        "problems": [],
+        "ok": error is None,
+        **(error_json(error) if error else {}),
+        "problems": problems_json([_as_problem(error)] if error else []),
         "warnings": problems_json(checked.warnings),
         "cups": cups.total,
         "magnets": magnets.total,
         "search_space": checked.search_space,
         "weight_n": checked.space.part.weight_n,
         "max_fos": checked.max_fos,
-        "floors": checked.floors._asdict(),
+        "floors": checked.floors._asdict() if checked.floors else None,
     }
 
 
-def failed_check_json(error: GraspError) -> Json:
+def _as_problem(error: InfeasibleError) -> Problem:
+    return Problem(error.where, error.message, "a grasp that meets all constraints", error.hint)
+
+
+def failed_check_json(error: InputError) -> Json:
     """Return what ``check`` found in a file that cannot be used."""
-    problems = (
-        error.problems
-        if isinstance(error, InputError)
-        else (
-            Problem(error.where, error.message, "a grasp that meets all constraints", error.hint),
-        )
-    )
     unknown = ("cups", "magnets", "search_space", "weight_n", "max_fos", "floors")
     return {
         "ok": False,
         **error_json(error),
-        "problems": problems_json(problems),
+        "problems": problems_json(error.problems),
         "warnings": [],
         **dict.fromkeys(unknown),
     }

@@ -28,6 +28,7 @@ class Terms(NamedTuple):
 
 
 TERMS = Terms._fields
+UNITS = {"cost": "$", "moment": "N-mm", "deviation": "mm", "structure": "mm"}
 DIVERGENCE = "divergence"
 
 

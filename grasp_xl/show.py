@@ -9,23 +9,23 @@ from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rich.box import SIMPLE
 from rich.console import Console
-from rich.progress import BarColumn, TextColumn
+from rich.progress import BarColumn, SpinnerColumn, TextColumn
 from rich.progress import Progress as Bars
 from rich.table import Table
 
 from grasp_xl.compiled import is_compiled
 from grasp_xl.errors import Problem
 from grasp_xl.grasp import Grasp
-from grasp_xl.rules import TERMS, Rules
+from grasp_xl.rules import TERMS, UNITS, Rules
 from grasp_xl.search.stop import Progress
 
 if TYPE_CHECKING:
-    from grasp_xl.commands import Checked
+    from grasp_xl.commands import Checked, Solved
     from grasp_xl.search.result import Result
     from grasp_xl.task import Task
 
-UNITS = {"cost": "$", "moment": "N-mm", "deviation": "mm", "structure": "mm"}
 REFRESH_SECONDS = 0.2
 
 
@@ -52,11 +52,11 @@ def warnings(found: Sequence[Problem]) -> None:
         _err.print(f"Warning: {warning}", style="yellow", markup=False)
 
 
-def compile_notice(*, quiet: bool) -> None:
-    """Say why the first run on a machine takes longer."""
+def compile_notice(*, quiet: bool, module: str = "", seconds: int = 10) -> None:
+    """Say why the first run on a machine takes longer, where a module's code is not there yet."""
     with suppress(OSError):  # a cache that may not be read is no reason to fail
-        if not quiet and not is_compiled():
-            _err.print("Compiling the search for this machine, once: about 10 seconds ...")
+        if not quiet and not is_compiled(module):
+            _err.print(f"Compiling the search for this machine, once: about {seconds} seconds ...")
 
 
 class SearchBar:
@@ -115,6 +115,50 @@ def progress(*, quiet: bool) -> Iterator[SearchBar]:
         yield SearchBar(bars)
 
 
+class ProofLine:
+    """A line with bound, best value, gap and time of an exact search.
+
+    Parameters
+    ----------
+    bars : rich.progress.Progress or None
+        None shows nothing.
+    """
+
+    def __init__(self, bars: Bars | None) -> None:
+        self._bars = bars
+        self._began = self._shown = time.perf_counter()
+
+    def __call__(self, bound: float, best: float | None) -> None:
+        """Show how far the search is."""
+        clock = time.perf_counter()
+        if self._bars is None or clock - self._shown < REFRESH_SECONDS:
+            return
+        self._shown = clock
+        if not self._bars.task_ids:
+            self._bars.add_task("Proving", total=None)
+        told = f"none below {bound:.6g}, "
+        if best is not None:
+            told += f"best {best:.6g}, gap {percent(best, bound)}, "
+        told += f"{clock - self._began:.0f} s"
+        self._bars.update(self._bars.task_ids[0], description=told, refresh=True)
+
+
+@contextmanager
+def proof_progress(*, quiet: bool) -> Iterator[ProofLine]:
+    """Give a line of an exact search; it shows on a terminal only."""
+    if quiet or not _err.is_terminal:
+        yield ProofLine(None)
+        return
+    columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False))
+    with Bars(*columns, console=_err, auto_refresh=False, transient=True) as bars:
+        yield ProofLine(bars)
+
+
+def percent(best: float, bound: float) -> str:
+    """Return the gap of a best value above a bound, in percent of the value."""
+    return f"{100 * (best - bound) / best if best > 0 else 0.0:.3g} %"
+
+
 def grasps(columns: Sequence[tuple[str, Grasp]], rules: Rules) -> None:
     """Print grasps side by side, a row a criterion, with the goals."""
     table = Table("", *(label for label, _ in columns), "Goal")
@@ -155,6 +199,61 @@ def run(task: Task, result: Result, seconds: float, path: Path) -> None:
     )
 
 
+def solve(solved: Solved) -> None:
+    """Print the outcome of an exact search: its designs, goals and floors, and what is proved."""
+    rules = solved.task.rules
+    criterion = rules.criterion
+    headings = [f"{term}\n({UNITS[term]})" for term in TERMS]
+    headings.append(f"value\n({UNITS[criterion.single]})" if criterion.single else criterion.name)
+    table = Table("", box=SIMPLE, pad_edge=False, collapse_padding=True)
+    for kind in solved.task.space.kinds:
+        table.add_column(kind.name, min_width=len(kind.name))
+    for heading in headings:
+        table.add_column(heading, justify="right", no_wrap=True)
+    for rank, grasp in enumerate(solved.proof.designs, 1):
+        genes = (" ".join(map(str, indices)) or "-" for indices in grasp.chromosome.active)
+        numbers = (f"{number:,.6g}" for number in (*grasp.terms, grasp.value))
+        table.add_row(str(rank), *genes, *numbers)
+    goals = (
+        "left out" if term in rules.goals.dropped else f"{goal:,.6g}"
+        for term, goal in zip(TERMS, rules.goals.base, strict=True)
+    )
+    table.add_row("goal", "", "", *goals, "")
+    if solved.floors:
+        table.add_row("floor", "", "", *(f"{floor:,.6g}" for floor in solved.floors), "")
+    _out.print(table)
+    line(proof_sentence(solved))
+
+
+def proof_sentence(solved: Solved) -> str:
+    """Say in a sentence what an exact search proved, and why it stopped if it did."""
+    proof, settings = solved.proof, solved.settings
+    criterion = solved.task.rules.criterion
+    unit = f" {UNITS[criterion.single]}" if criterion.single else ""
+    whose = " that meets all goals" if settings.meet_goals else ""
+    whose += f" of {settings.min_elements} or more elements" if settings.min_elements > 1 else ""
+    none = f"no grasp{whose} has a {criterion.name} below {proof.bound:,.6g}{unit}"
+    if proof.status == "optimal":
+        these = len(proof.designs)
+        ranked = f"these are the {these} best grasps, and " if these > 1 else ""
+        if these < settings.top:
+            ranked = f"there are only {these} different grasps, and "
+        return f"Proved: {ranked}{none} ({proof.seconds:.2f} s)."
+    if solved.interrupted:
+        stopped = "interrupted"
+    elif proof.seconds >= settings.time_limit_s:
+        stopped = "stopped at the time limit"
+    elif proof.gap is not None and proof.gap <= settings.gap:
+        stopped = "stopped at the gap asked for"
+    else:
+        stopped = "stopped as the memory for open branches is full"
+    if not proof.designs:
+        return f"No grasp found yet; {none}; {stopped} ({proof.seconds:.2f} s)."
+    best = proof.designs[0].value
+    gap = percent(best, proof.bound)
+    return f"Best found {best:,.6g}{unit}; {none} (gap {gap}); {stopped} ({proof.seconds:.2f} s)."
+
+
 def check(checked: Checked) -> None:
     """Print what ``check`` found."""
     space = checked.space
@@ -166,6 +265,7 @@ def check(checked: Checked) -> None:
     line(f"part: {space.part.mass_g:,.6g} g, {space.part.weight_n:,.6g} N")
     line(f"different grasps: {Decimal(checked.search_space):.4e}")
     line(f"FoS of the most elements: {checked.max_fos:.4g}")
-    for term, floor in checked.floors._asdict().items():
+    for term, floor in checked.floors._asdict().items() if checked.floors else ():
         line(f"no {term} below {floor:,.6g} {UNITS[term]}")
-    line("No problem found.")
+    if not checked.obstacle:
+        line("No problem found.")

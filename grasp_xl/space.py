@@ -17,6 +17,9 @@ IntArray = NDArray[np.int64]
 GRAVITY_M_S2 = 9.81
 """Gravity of the thesis's cards: 13796.195 g weigh 135.3407 N."""
 
+MAX_COUNT = 25
+"""Largest Max. of a kind; the helper cells of a live card grow with its square."""
+
 MIN_GENE_SLOTS = 5
 """The thesis's chromosome has five index genes a kind (eq. 1); a larger Max. widens it."""
 

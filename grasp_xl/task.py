@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar
-
-import numpy as np
 
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.errors import Problem
@@ -30,9 +26,6 @@ T = TypeVar("T")
 
 NEGLIGIBLE_GOAL = 1e-9
 """A defaulted goal below this drops its term (one element has no structure, say)."""
-
-HASHED_DECIMALS = 9
-"""Decimals of a coordinate (mm) that tell two option spaces apart."""
 
 NO_GOALS = (None, None, None, None)
 
@@ -115,42 +108,6 @@ class Task:
     assigned: bool
     warnings: tuple[Problem, ...]
 
-    @property
-    def inputs_hash(self) -> str:
-        """Hash of everything that a run's course depends on, for ``--continue``."""
-        digest = hashlib.sha256()
-        for array in (
-            *(kind.footprints_mm for kind in self.space.kinds),
-            self.space.part.centroid_mm,
-            self.space.approximation_polygon_mm,
-            self.benchmark.chromosome.genes,
-        ):
-            # Some programs drop the last digits of numbers near zero when they save.
-            places = np.round(array, HASHED_DECIMALS) + 0.0
-            digest.update(str(places.shape).encode() + np.ascontiguousarray(places).tobytes())
-        numbers = [
-            self.space.part.mass_g,
-            self.space.scale_factor,
-            *(
-                (kind.force_n, kind.price, kind.count_min, kind.count_max)
-                for kind in self.space.kinds
-            ),
-            self.rules.goals.base,
-            sorted(self.rules.goals.dropped),
-            self.rules.requirements.fos,
-            self.rules.requirements.clearance_mm,
-            self.rules.requirements.density_ratio,
-            self.rules.requirements.moment_arm,
-            self.rules.criterion.name,
-            self.settings.one_in,
-            self.settings.children,
-            self.settings.elitism,
-            self.settings.user_start,
-            self.settings.seed,
-        ]
-        digest.update(json.dumps(numbers).encode())
-        return digest.hexdigest()
-
 
 def settle(space: OptionSpace, said: Parameters, user_chromosome: Chromosome | None) -> Task:
     """Fill every gap: defaults, the clearance, the benchmark grasp, the goals.
@@ -161,12 +118,7 @@ def settle(space: OptionSpace, said: Parameters, user_chromosome: Chromosome | N
         If no grasp can serve as the benchmark.
     """
     known = said.over(DEFAULTS)
-    requirements = Requirements(
-        fos=_known(known.fos),
-        clearance_mm=known.clearance_mm or space.largest_diameter_mm or DEFAULT_CLEARANCE_MM,
-        density_ratio=_known(known.density_ratio),
-        moment_arm=_known(known.moment_arm),
-    )
+    requirements = settle_requirements(space, known)
     chromosome = user_chromosome or assigned_benchmark(space, requirements)
     unscaled = Rules(Goals(Terms(1.0, 1.0, 1.0, 1.0)), requirements)
     benchmark = evaluate(space, unscaled, chromosome)
@@ -197,6 +149,17 @@ def settle(space: OptionSpace, said: Parameters, user_chromosome: Chromosome | N
         benchmark=evaluate(space, rules, chromosome),
         assigned=user_chromosome is None,
         warnings=tuple(warnings),
+    )
+
+
+def settle_requirements(space: OptionSpace, said: Parameters) -> Requirements:
+    """Return what every grasp must meet, defaults filled in."""
+    known = said.over(DEFAULTS)
+    return Requirements(
+        fos=_known(known.fos),
+        clearance_mm=known.clearance_mm or space.largest_diameter_mm or DEFAULT_CLEARANCE_MM,
+        density_ratio=_known(known.density_ratio),
+        moment_arm=_known(known.moment_arm),
     )
 
 

@@ -470,6 +470,12 @@ def workbook_part_is_no_xml(path: Path) -> None:
     change_part(path, "xl/workbook.xml", lambda _: b"sheets")
 
 
+@wrong_file("a damaged workbook (a value that the file format does not have there)", *DAMAGED)
+def font_size_is_text(path: Path) -> None:
+    tiny_export(path)
+    change_part(path, "xl/styles.xml", lambda xml: replaced(xml, b'<sz val="11"', b'<sz val="big"'))
+
+
 @wrong_file(f"a damaged sheet '{SHEET}' (no element found: line 2, column 405)", *DAMAGED)
 def sheet_part_breaks_off(path: Path) -> None:
     tiny_export(path)

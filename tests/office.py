@@ -109,6 +109,10 @@ class Office:
         """Type into cells, as a person does: what depends on them follows; None empties a cell."""
         self._do("write", cells=[(_sent(place), value) for place, value in cells.items()])
 
+    def paste(self, source: Place, target: Place) -> None:
+        """Copy cells and paste them whole elsewhere; :meth:`undo` does not put this back."""
+        self._do("paste", source=_sent(source), target=_sent(target))
+
     def undo(self) -> None:
         """Put back what was typed over since the workbook was opened."""
         self._do("undo")

@@ -161,10 +161,21 @@ class Session:
             self._typed.append((cell, content(cell)))
             put(cell, value)
 
+    def paste(self, source, target):
+        """Copy cells and paste them whole, as a person does by Ctrl+C and Ctrl+V."""
+        area, first = self._area(source), self._area(target).getCellByPosition(0, 0)
+        first.Spreadsheet.copyRange(first.CellAddress, area.RangeAddress)
+
     def undo(self):
-        """Put back what was typed over since the workbook was opened."""
+        """Put back what was typed over since the workbook was opened.
+
+        Nobody looks at the cells in between, so LibreOffice must be told to calculate them: cells
+        that were errors else stay what they were when the next thing is typed.
+        """
         while self._typed:
             put(*self._typed.pop())
+        if self._book is not None:
+            self._book.calculate()
 
     def save(self, path):
         """Save the workbook as .xlsx."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
+import io
 import json
 import os
 import shutil
@@ -19,12 +21,12 @@ import typer
 from bad_workbooks import tiny_export
 from python_calamine import CalamineWorkbook
 
-from grasp_xl import __version__, cli, commands
+from grasp_xl import __main__, __version__, cli, commands, show
 from grasp_xl.search import stop
 from grasp_xl.workbook import cells, reading_ga
 
 SAMPLES = Path(__file__).parents[1] / "workbooks"
-COMMANDS = ("check", "new", "evaluate", "run")
+COMMANDS = ("check", "new", "evaluate", "run", "solve")
 GRASP_KEYS = {
     *("suction", "magnets", "genes", "force_n", "weight_n", "fos", "cost", "moment", "deviation"),
     *("structure", "divergence", "clearance", "centre_of_force", "normalised", "feasible"),
@@ -34,6 +36,7 @@ RUN_KEYS = {
     *("best", "proved", "benchmark", "goals", "seconds", "generations", "evaluations", "seed"),
     *("stop_reason", "output"),
 }
+SOLVE_KEYS = {"status", "bound", "gap", "designs", "floors", "goals", "seconds", "output"}
 CHECK_KEYS = {
     *("ok", "problems", "warnings", "cups", "magnets", "search_space", "weight_n", "max_fos"),
     "floors",
@@ -179,6 +182,61 @@ def test_json_of_check_has_the_keys_of_the_specification(gx: Any, export: Path) 
     assert (told.json["cups"], told.json["magnets"]) == (6, 6)
 
 
+def test_json_of_solve_has_the_keys_of_the_specification(gx: Any, bracket: Path) -> None:
+    told = gx("solve", bracket, "--top", 3, "--json")
+    assert told.code == 0
+    assert set(told.json) == SOLVE_KEYS
+    assert (told.json["status"], told.json["gap"], told.json["output"]) == ("optimal", 0, None)
+    values = [design["value"] for design in told.json["designs"]]
+    assert len(values) == 3
+    assert values == sorted(values)
+    assert told.json["bound"] == values[0]
+    assert all(set(design) == GRASP_KEYS for design in told.json["designs"])
+    assert set(told.json["goals"]) == FIVE
+    for term, floor in told.json["floors"].items():
+        assert floor <= told.json["designs"][0][term] * (1 + 1e-9)
+    assert files(bracket.parent) == [bracket.name]
+
+
+@pytest.mark.parametrize(
+    ("change", "floors"), [({"B5": 200_000}, False), ({}, True)], ids=["heavy", "close"]
+)
+def test_check_shows_what_is_known_of_a_space_without_a_grasp(
+    gx: Any,
+    tmp_path: Path,
+    change: dict[str, Any],
+    floors: bool,  # noqa: FBT001
+) -> None:
+    """Counts, weight and the reachable FoS stand beside the error, which keeps its exit code."""
+    export = tmp_path / "none.xlsx"
+    tiny_export(export, change)
+    options = () if "B5" in change else ("--clearance", "500")
+    told = gx("check", export, "--json", *options)
+    assert told.code == 4
+    assert set(told.json) == CHECK_KEYS | ERROR_KEYS
+    assert not told.json["ok"]
+    assert told.json["problems"][0]["found"] == told.json["error"]
+    known = {"cups": 6, "magnets": 6, "search_space": 62 * 62}
+    assert {key: told.json[key] for key in known} == known
+    assert told.json["max_fos"] * told.json["weight_n"] == pytest.approx(5 * (69 + 130))
+    assert bool(told.json["floors"]) == floors
+    plain = gx("check", export, *options)
+    assert plain.code == 4
+    assert "suction: 6 places" in plain.out
+    assert "No problem" not in plain.out
+    assert plain.err.startswith("No grasp")
+
+
+def test_a_workbook_can_be_made_of_a_space_without_a_grasp(gx: Any, tmp_path: Path) -> None:
+    """With a grasp of the designer's there is a benchmark, so that a Max. can be raised in it."""
+    export = tmp_path / "heavy.xlsx"
+    tiny_export(export, {"B5": 200_000})
+    book = tmp_path / "book.xlsx"
+    assert gx("new", export, "-o", book).code == 4
+    assert gx("new", export, "-o", book, "--cups", "1,4", "--magnets", "3").code == 0
+    assert gx("evaluate", book).code == 0
+
+
 def test_check_lists_every_problem(gx: Any, tmp_path: Path) -> None:
     export = tmp_path / "wrong.xlsx"
     tiny_export(export, {"B5": -1, "D6": "here", "L1": 2})
@@ -232,6 +290,11 @@ WRONG = [
     *(f"evaluate FILE --magnets 1 --cups {word}" for word in ("0", "7", "-1", "1,1", "1,2,")),
     *(f"evaluate FILE --magnets 1 --cups {word}" for word in ("a", "1.5", "1,2,3,4,5,6", "9" * 30)),
     "evaluate FILE --cups 1",
+    *(f"solve FILE --top {word}" for word in ("0", "1001", "1.5")),
+    *(f"solve FILE --gap {word}" for word in ("-1", "nan", "inf")),
+    *(f"solve FILE --min-elements {word}" for word in ("0", "two")),
+    "solve FILE --time-limit -1",
+    "solve FILE -o OTHER",
 ]
 
 
@@ -270,7 +333,7 @@ def test_bad_input_is_exit_code_3_and_writes_nothing(
 
 def test_what_no_grasp_can_meet_is_exit_code_4_at_once(gx: Any, bracket: Path) -> None:
     """Also where a user-defined grasp is there to start from."""
-    for command in ("check", "run"):
+    for command in ("check", "run", "solve"):
         for option, value in (("--fos", "8"), ("--clearance", "500")):
             told = gx(command, bracket, option, value, "--json")
             assert told.code == 4
@@ -283,6 +346,48 @@ def test_a_grasp_below_the_constraints_is_shown_nevertheless(gx: Any, bracket: P
     told = gx("evaluate", bracket, "--fos", "8", "--json")
     assert told.code == 0
     assert told.json["feasible"] is False
+
+
+@pytest.mark.parametrize(
+    ("words", "hint"),
+    [
+        (("-o", "folder.xlsx"), "Name another file with -o."),
+        (("--history", "folder.csv"), "Name another file with --history."),
+    ],
+)
+def test_a_folder_is_refused_with_the_option_that_names_it(
+    gx: Any, bracket: Path, words: tuple[str, str], hint: str
+) -> None:
+    option, name = words
+    folder = bracket.with_name(name)
+    folder.mkdir()
+    told = gx("run", bracket, option, folder)
+    assert (told.code, told.err.splitlines()[1]) == (3, hint)
+
+
+@pytest.mark.parametrize("option", ["-o", "--history"])
+def test_an_empty_file_name_is_wrong_usage(gx: Any, bracket: Path, option: str) -> None:
+    told = gx("run", bracket, option, "")
+    assert (told.code, told.err.splitlines()[0]) == (
+        2,
+        f"{option}: found '', expected the name of a file.",
+    )
+
+
+def test_ctrl_c_while_the_program_loads_is_exit_code_130(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The first moments are imports, which nobody wants to see."""
+
+    class Loading:
+        def __getattr__(self, name: str) -> None:
+            raise KeyboardInterrupt
+
+    monkeypatch.setitem(sys.modules, "grasp_xl.cli", Loading())
+    with pytest.raises(SystemExit) as end:
+        __main__.entry()
+    assert end.value.code == 130
+    assert capsys.readouterr().err == "Interrupted; nothing was written.\n"
 
 
 def test_ctrl_c_before_a_search_is_exit_code_130(
@@ -496,6 +601,95 @@ def test_ctrl_c_writes_the_best_so_far(bracket: Path) -> None:
     assert told["best"]["divergence"] < 4
     assert "interrupted" in named(Path(told["output"]), "StopReason")[0].lower()
     assert files(bracket.parent) == ["bracket-result.xlsx", "bracket.xlsx"]
+
+
+# --- solve ---
+
+
+def test_solve_shows_designs_goals_floors_and_what_is_proved(gx: Any, bracket: Path) -> None:
+    told = gx("solve", bracket, "--top", 2)
+    assert told.code == 0
+    first = [line.split()[:1] for line in told.out.splitlines()]
+    assert [word for word in (["1"], ["2"], ["goal"], ["floor"]) if word in first] == [
+        *(["1"], ["2"], ["goal"], ["floor"])
+    ]
+    assert "Proved: these are the 2 best grasps, and no grasp has a divergence below" in told.out
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ("--criterion cost", "no grasp has a cost below 90 $"),
+        ("--min-elements 5", "no grasp of 5 or more elements has a divergence below"),
+        ("--goals 200,9000,90,2000 --meet-goals", "no grasp that meets all goals has a divergence"),
+        ("--time-limit 0", "stopped at the time limit"),
+        ("--gap 100", "stopped at the gap asked for"),
+    ],
+)
+def test_solve_says_in_a_sentence_what_is_proved(
+    gx: Any, bracket: Path, words: str, sentence: str
+) -> None:
+    told = gx("solve", bracket, *words.split())
+    assert told.code == 0
+    assert sentence in told.out
+
+
+def test_solve_never_finds_worse_than_run(gx: Any, export: Path) -> None:
+    best = gx("run", export, "--generations", 3000, "--json").json["best"]["value"]
+    told = gx("solve", export, "--json").json
+    assert told["status"] == "optimal"
+    assert told["designs"][0]["value"] <= best * (1 + 1e-9)
+
+
+def test_solve_knows_what_goals_no_grasp_meets(gx: Any, bracket: Path) -> None:
+    """It names the goal below its floor; raised as the hint says, there is a grasp."""
+    told = gx("solve", bracket, "--goals", "110,5000,30,1000", "--meet-goals", "--json")
+    assert told.code == 4
+    assert told.json["status"] == "infeasible"
+    assert "the moment goal of 5,000 N-mm is below its floor of 5,121.63 N-mm" in told.json["error"]
+    assert "moment goal: found 5,000 N-mm" in told.err
+    raised = told.json["hint"].split()[5].replace(",", "")
+    told = gx("solve", bracket, "--goals", f"110,{raised},30,1000", "--meet-goals", "--json")
+    assert (told.code, told.json["status"]) == (0, "optimal")
+    assert told.json["designs"][0]["meets_all_goals"]
+
+
+@pytest.mark.parametrize("command", ["check", "solve", "run"])
+def test_a_goal_below_its_floor_is_named(gx: Any, bracket: Path, command: str) -> None:
+    """With the plan arm the same goal is none too low."""
+    words = (command, bracket, "--goals", "100,5000,30,1000", "--json")
+    words += ("--generations", "5") if command == "run" else ()
+    assert "have a moment below 5,121.63 N-mm with the 3d arm; raise the goal" in gx(*words).err
+    assert "moment goal" not in gx(*words, "--moment-arm", "plan").err
+
+
+def test_ctrl_c_leaves_a_true_bound(
+    gx: Any, bracket: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Interrupted as soon as it begins, solve still shows the benchmark and a bound below all."""
+    best = gx("solve", bracket, "--json").json["bound"]
+
+    @contextlib.contextmanager
+    def interrupted() -> Any:
+        yield stop.Interrupt(asked=True)
+
+    monkeypatch.setattr(stop, "stop_on_ctrl_c", interrupted)
+    told = gx("solve", bracket, "--json")
+    assert told.code == 130
+    assert told.json["status"] == "feasible"
+    assert told.json["bound"] <= best <= told.json["designs"][0]["value"]
+    assert "interrupted" in gx("solve", bracket).out
+
+
+def test_a_terminal_shows_how_far_the_proof_is(
+    gx: Any, bracket: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    screen = io.StringIO()
+    monkeypatch.setattr(show, "_err", show.Terminal(file=screen, force_terminal=True))
+    monkeypatch.setattr(show, "REFRESH_SECONDS", 0.0)
+    assert gx("solve", bracket).code == 0
+    for word in ("none below", "best", "gap", " s"):
+        assert word in screen.getvalue()
 
 
 # --- the same again ---

@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +14,14 @@ import openpyxl
 import pytest
 from bad_workbooks import tiny_export
 from python_calamine import CalamineWorkbook
+from spaces import plate
 
 from grasp_xl import cli
 from grasp_xl.search import stop
+from grasp_xl.space import Part, frozen
 from grasp_xl.workbook import run_log
 from grasp_xl.workbook.book import read_book
+from grasp_xl.workbook.writing import export_workbook
 
 SAMPLES = Path(__file__).parents[1] / "workbooks"
 OF_THIS_RUN = ("Input file", "Input SHA-256", "Started", "Ended", "Seconds of search")
@@ -35,6 +39,18 @@ def export(tmp_path: Path) -> Path:
     """Write the tiny export."""
     path = tmp_path / "tiny.xlsx"
     tiny_export(path)
+    return path
+
+
+@pytest.fixture
+def long_numbers(tmp_path: Path) -> Path:
+    """Write an export whose numbers need all their 17 digits, as those of real parts do."""
+    space = plate(seed=4)
+    kinds = (replace(kind, force_n=kind.force_n + 1 / 7) for kind in space.kinds)
+    part = Part(1720.115897202766, frozen(space.part.centroid_mm + 1 / 3))
+    long = replace(space, part=part, kinds=tuple(kinds), scale_factor=2 / 3)
+    path = tmp_path / "long.xlsx"
+    path.write_bytes(export_workbook(long))
     return path
 
 
@@ -88,6 +104,14 @@ def cell_of(opened: openpyxl.Workbook, name: str, row: int = 0, column: int = 0)
     return opened[sheet.strip("'")][cells.split(":")[0]].offset(row, column)
 
 
+def small_lists(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give the sheets room for 40 changes and 3 designs only."""
+    for module in ("history_sheet", "run_log", "reading_run"):
+        monkeypatch.setattr(f"grasp_xl.workbook.{module}.MAX_HISTORY", 40)
+    for module in ("designs_sheet", "run_log"):
+        monkeypatch.setattr(f"grasp_xl.workbook.{module}.MAX_DESIGNS", 3)
+
+
 # --- the same course ---
 
 
@@ -110,17 +134,43 @@ def test_splits_change_nothing_without_elitism(
     assert content(parts) == content(at_once(export, 300, *options))
 
 
+@pytest.mark.parametrize("seed", ["3", "4", "5"])
 def test_lists_too_long_for_their_sheets_go_on(
-    export: Path, monkeypatch: pytest.MonkeyPatch
+    export: Path, monkeypatch: pytest.MonkeyPatch, seed: str
 ) -> None:
     """The newest rows are listed, and what the fitness table needs."""
-    for module in ("history_sheet", "run_log", "reading_run"):
-        monkeypatch.setattr(f"grasp_xl.workbook.{module}.MAX_HISTORY", 40)
-    for module in ("designs_sheet", "run_log"):
-        monkeypatch.setattr(f"grasp_xl.workbook.{module}.MAX_DESIGNS", 3)
-    options = ("--no-elitism", "--seed", "3", "--goals", "1000,90000,900,9000")
-    parts = in_parts(export, [90, 150, 1200], *options)
-    assert content(parts) == content(at_once(export, 1200, *options))
+    small_lists(monkeypatch)
+    options = ("--no-elitism", "--seed", seed, "--goals", "1000,90000,900,9000")
+    parts, whole = (
+        content(book)
+        for book in (in_parts(export, [90, 150, 1200], *options), at_once(export, 1200, *options))
+    )
+    warned = [row for row in parts["Run Log"] if row[0] == "Warning"]
+    parts["Run Log"] = [row for row in parts["Run Log"] if row not in warned]
+    assert ["History: found the changes from generation" in row[1] for row in warned] == [True]
+    assert parts == whole
+
+
+def test_a_history_that_the_workbook_could_not_list_is_a_warning(
+    export: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It names the generation from which the CSV has every change."""
+    small_lists(monkeypatch)
+    options = ("--no-elitism", "--goals", "1000,90000,900,9000")
+    first = export.with_name("first.xlsx")
+    words = ("--generations", 300, "--history", export.with_name("first.csv"), *options)
+    assert run(export, "-o", first, *words) == 0
+    second = ("--continue", "--generations", "310", "--history", export.with_name("second.csv"))
+    assert cli.main(["run", str(first), *map(str, second)]) == 0
+    told = capsys.readouterr().err
+    begin = int(told.partition("from generation ")[2].split()[0])
+    before, after = (
+        {int(line.split(",")[0]) for line in file.read_text().splitlines()[1:]}
+        for file in (export.with_name("first.csv"), export.with_name("second.csv"))
+    )
+    assert "a --history file begins there, too" in told
+    assert {g for g in before if g >= begin} - {300} <= after
+    assert max(g for g in before if g < begin) not in after
 
 
 def test_a_run_with_options_goes_on_without_them(export: Path) -> None:
@@ -183,53 +233,94 @@ def test_it_goes_on_after_openpyxl_saved_the_workbook(bracket: Path) -> None:
     assert content(part) == content(at_once(bracket, 900))
 
 
-@pytest.mark.skipif(
-    shutil.which("soffice") is None and "GRASP_XL_REQUIRE_ALL" not in os.environ,
-    reason="LibreOffice (soffice) is not installed",
-)
-def test_it_goes_on_after_libreoffice_saved_the_workbook(bracket: Path) -> None:
-    """Numbers have 15 digits then; the course is the same."""
-    part = in_parts(bracket, [400])
-    folder = part.with_name("saved")
-    profile = (bracket.parent / "profile").as_uri()
+def in_15_digits(book: Path) -> Path:
+    """Save all numbers of a workbook as LibreOffice does, formulas with them."""
+    saved = book.with_name("digits.xlsx")
+    opened = openpyxl.load_workbook(book)
+    for sheet in opened:
+        for row in sheet.iter_rows():
+            for cell in row:
+                if isinstance(cell.value, float):
+                    cell.value = float(f"{cell.value:.15g}")
+    opened.save(saved)
+    return saved
+
+
+def values_only(book: Path) -> Path:
+    """Save a workbook with values where its formulas were, as pandas and others do."""
+    saved = book.with_name("values.xlsx")
+    openpyxl.load_workbook(book, data_only=True).save(saved)
+    return saved
+
+
+def by_libreoffice(book: Path) -> Path:
+    """Save a workbook by LibreOffice."""
+    if shutil.which("soffice") is None and "GRASP_XL_REQUIRE_ALL" not in os.environ:
+        pytest.skip("LibreOffice (soffice) is not installed")
+    folder = book.with_name("saved")
+    profile = (book.parent / "profile").as_uri()
     subprocess.run(  # noqa: S603
         [
             *("soffice", f"-env:UserInstallation={profile}", "--headless"),
-            *("--convert-to", "xlsx", "--outdir", str(folder), str(part)),
+            *("--convert-to", "xlsx", "--outdir", str(folder), str(book)),
         ],
         check=True,
         capture_output=True,
         timeout=120,
     )
-    saved = folder / part.name
-    assert run(saved, "-o", bracket.with_name("on.xlsx"), "--continue", "--generations", 900) == 0
-    states = [
-        read_book(book).saved_run().state
-        for book in (bracket.with_name("on.xlsx"), at_once(bracket, 900))
+    return folder / book.name
+
+
+def same_course(one: Path, other: Path) -> bool:
+    """Tell whether two runs changed and found the same grasps, and stand at the same place."""
+    states = [read_book(book).saved_run().state for book in (one, other)]
+    courses = [
+        [
+            *(trace.generation.tolist() for trace in (state.changes, state.designs)),
+            *(trace.genes.tolist() for trace in (state.changes, state.designs)),
+            (state.random_state, state.best, state.evaluations),
+        ]
+        for state in states
     ]
-    for trace in ("changes", "designs"):
-        one, other = (getattr(state, trace) for state in states)
-        assert one.generation.tolist() == other.generation.tolist()
-        assert one.genes.tolist() == other.genes.tolist()
-    assert states[0].random_state == states[1].random_state
-    assert states[0].best == states[1].best
-    assert run(saved, "--in-place", "--generations", 5) == 0  # and nothing of it is foreign
+    return courses[0] == courses[1]
+
+
+@pytest.mark.parametrize("saved_by", [in_15_digits, values_only, by_libreoffice])
+@pytest.mark.parametrize("words", [(), ("--cups", "1,2", "--magnets", "3,4", "--seed", "2")])
+def test_it_goes_on_after_other_programs_saved_the_workbook(
+    long_numbers: Path, saved_by: Callable[[Path], Path], words: tuple[str, ...]
+) -> None:
+    """Numbers have 15 digits then, or formulas became values; the course is the same."""
+    saved = saved_by(in_parts(long_numbers, [400], *words))
+    on = long_numbers.with_name("on.xlsx")
+    assert run(saved, "-o", on, "--continue", "--generations", 900) == 0
+    assert same_course(on, at_once(long_numbers, 900, *words))
+
+
+def test_nothing_is_foreign_in_what_libreoffice_saved(bracket: Path) -> None:
+    saved = by_libreoffice(in_parts(bracket, [400]))
+    assert run(saved, "--in-place", "--generations", 5) == 0
 
 
 # --- refused ---
 
-CHANGES: dict[str, tuple[str, object]] = {
-    "a footprint": ("SuctionLocations", 99.5),
-    "a corner": ("ApproximationPolygon", 170),
-    "the scale factor": ("ScaleFactor", 0.7),
-    "the mass": ("PartMass", 8000),
-    "the centroid": ("CentroidX", 1),
-    "a force": ("SuctionForce", 70),
-    "a price": ("MagnetPrice", 31),
-    "a minimum": ("SuctionMin", 0),
-    "a maximum": ("MagnetMax", 4),
-    "the benchmark": ("UserChromosome", 1),
-    "a goal": ("CostGoal", 99),
+CHANGES: dict[str, tuple[str, object, str]] = {
+    "a footprint": ("SuctionLocations", 99.5, "Suction cup locations"),
+    "a magnet's place": ("MagnetLocations", 100.00001, "Magnet locations"),
+    "a corner": ("ApproximationPolygon", 170, "Approximation polygon"),
+    "the scale factor": ("ScaleFactor", 0.7, "Scale Factor 0.7, not 0.6"),
+    "the mass": ("PartMass", 8000, "Part mass (g) 8000, not 8860"),
+    "the centroid": ("CentroidX", 1, "Centroid X (mm) 1, not 1.5"),
+    "a force": ("SuctionForce", 70, "Suction cup data: Normal force capacity (N) 70, not 69"),
+    "a price": ("MagnetPrice", 31, "Magnet data: Unit price ($) 31, not 30"),
+    "a minimum": ("SuctionMin", 0, "Suction cup data: # Suction Cups (Min.) 0, not 1"),
+    "a maximum": ("MagnetMax", 4, "Magnet data: # Magnets (Max.) 4, not 5"),
+    "the benchmark": (
+        "UserChromosome",
+        1,
+        "Benchmark grasp (genes) [[1, 2, 6, 1, 1, 1], [2, 3, 4, 1, 1, 1]], not [[2, 2, 6, 1, 1, 1",
+    ),
+    "a goal": ("CostGoal", 99, "Goal: cost 99, not 80"),
 }
 OPTIONS = (
     *("--seed 2", "--one-in 5", "--children 4", "--no-elitism", "--start random"),
@@ -252,12 +343,15 @@ def part_way(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_it_is_refused_where_an_input_changed(
     part_way: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], what: str
 ) -> None:
+    """The message names the input, and not what follows from it."""
     book = Path(shutil.copy(part_way, tmp_path))
-    name, value = CHANGES[what]
+    name, value, told = CHANGES[what]
     edit(book, lambda opened: setattr(cell_of(opened, name), "value", value))
     before = book.read_bytes()
     assert run(book, "--continue", "--in-place", "--generations", 90) == 3
-    assert "inputs that changed since its run" in capsys.readouterr().err
+    message = capsys.readouterr().err
+    assert f"found inputs that changed since its run: {told}" in message
+    assert ";" not in message.partition(", expected")[0]
     assert book.read_bytes() == before
     assert files(tmp_path) == [book.name]
 
@@ -315,6 +409,16 @@ def write(name: str, value: object) -> Callable[[openpyxl.Workbook], None]:
         write("MutationMatrix", 0.5),
         write(run_log.GENERATIONS_DONE, "many"),
         write(run_log.GENERATIONS_DONE, 1.5),
+        write(run_log.GENERATIONS_DONE, -5),
+        write(run_log.GENERATIONS_DONE, 10**10),
+        write(run_log.EVALUATIONS, 1e300),
+        write(run_log.EVALUATIONS, -1),
+        write(run_log.BEST_FOUND_AT, -3),
+        write(run_log.BEST_FOUND_AT, 61),
+        write(run_log.DESIGNS_FOUND, 0),
+        lambda opened: setattr(opened["Valid Designs"]["B9"], "value", -3),
+        lambda opened: setattr(opened["History"]["A4"], "value", 1e300),
+        lambda opened: opened.remove(opened["History"]),
         write(run_log.EVALUATIONS, None),
         write(run_log.BEST_GRASP, "[[1, 2], [3]]"),
         write(run_log.BEST_GRASP, "[[9, 1, 2, 3, 4, 5], [1, 2, 3, 4, 5, 6]]"),
@@ -326,14 +430,19 @@ def write(name: str, value: object) -> Callable[[openpyxl.Workbook], None]:
             run_log.RANDOM_STATE,
             '{"bit_generator":"PCG64","state":{"state":-1,"inc":1e999},"has_uint32":0,"uinteger":0}',
         ),
-        write(run_log.INPUTS_HASH, None),
+        write(run_log.BENCHMARK_WRITTEN, None),
     ],
 )
 def test_a_run_that_was_tampered_with_is_refused(
-    part_way: Path, tmp_path: Path, damage: Callable[[openpyxl.Workbook], object]
+    part_way: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    damage: Callable[[openpyxl.Workbook], object],
 ) -> None:
-    """Each in a sentence: a list that was sorted or cut, genes that are none, no random state."""
+    """Each in a plain sentence: a list that was sorted or cut, no random state, negative numbers."""
     book = Path(shutil.copy(part_way, tmp_path))
     edit(book, damage)
     assert run(book, "--continue", "-o", tmp_path / "out.xlsx") == 3
     assert files(tmp_path) == [book.name]
+    told = capsys.readouterr().err
+    assert not [raw for raw in ("Worksheet", "array", "Expecting", "None") if raw in told]

@@ -174,8 +174,10 @@ def test_json_has_the_documented_keys(folder: Path, capsys: pytest.CaptureFixtur
     assert set(told("new", book, "-o", output)) == keys_of("JSON of new")
     assert set(told("run", book, "-o", output, "--generations", "9")) == keys_of("JSON of run")
     assert set(told("check", book)) == keys_of("JSON of check")
+    assert set(told("solve", book)) == keys_of("JSON of solve")
     added = {"error", "where", "hint"}
     assert set(told("check", book, "--fos", "99")) == keys_of("JSON of check") | added
+    assert set(told("solve", book, "--fos", "99")) == keys_of("JSON of solve") | added
     assert set(told("evaluate", str(folder / "none.xlsx"))) == keys_of("JSON of an error")
 
 

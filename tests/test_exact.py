@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from itertools import combinations, product
 
 import pytest
@@ -14,10 +15,13 @@ from grasp_xl.chromosome import from_active
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Rules
 from grasp_xl.search.exact import ExactSettings, solve
+from grasp_xl.search.exact_many import make_many_room
+from grasp_xl.search.exact_pairs import PAIRS
 from grasp_xl.search.genetic import search
 from grasp_xl.search.result import GeneticSettings
 from grasp_xl.search.stop import Generations
-from grasp_xl.space import OptionSpace
+from grasp_xl.search.symmetry import representative, symmetries
+from grasp_xl.space import ElementKind, OptionSpace, Part, frozen
 
 
 def all_grasps(space: OptionSpace, rules: Rules) -> list[Grasp]:
@@ -38,16 +42,23 @@ def all_grasps(space: OptionSpace, rules: Rules) -> list[Grasp]:
     return sorted((g for g in grasps if g.feasible), key=lambda grasp: grasp.value)
 
 
+def distinct(space: OptionSpace, grasps: list[Grasp]) -> list[Grasp]:
+    """Keep the best of grasps that are images of one another under the space's symmetries."""
+    maps = symmetries(space)
+    best = {representative(maps, grasp.chromosome.active): grasp for grasp in reversed(grasps)}
+    return sorted(best.values(), key=lambda grasp: grasp.value)
+
+
 @settings(max_examples=150, deadline=None)
 @given(data=st.data())
 def test_optimum_equals_brute_force(data):
-    """Status, optimum, top three and goals-only optimum are those of all grasps, one by one."""
+    """Status, optimum, top three (images once) and goals-only optimum are those of all grasps."""
     space = data.draw(option_spaces(most=5))
     rules = data.draw(any_rules())
     grasps = all_grasps(space, rules)
     proof = solve(space, rules, ExactSettings(top=3))
     assert proof.status == ("optimal" if grasps else "infeasible")
-    values = [grasp.value for grasp in grasps[:3]]
+    values = [grasp.value for grasp in distinct(space, grasps)[:3]]
     assert [grasp.value for grasp in proof.designs] == pytest.approx(values, rel=1e-8, abs=1e-9)
     assert all(grasp.feasible for grasp in proof.designs)
     good = [grasp.value for grasp in grasps if grasp.meets_all_goals]
@@ -67,6 +78,75 @@ def test_least_number_of_elements_is_kept(data):
     proof = solve(space, rules, ExactSettings(min_elements=least))
     found = [grasp.value for grasp in proof.designs]
     assert found == pytest.approx(large[:1], rel=1e-8, abs=1e-9)
+
+
+@st.composite
+def crowded_spaces(draw: st.DrawFn) -> OptionSpace:
+    """Draw a space whose grasps have four to eight elements, on a grid, so that many are equal."""
+    corners = [(x, y, 0.0) for x, y in ((120, 90), (120, -90), (-120, -90), (-120, 90))]
+    places = st.tuples(
+        st.integers(-3, 3).map(lambda i: 50.0 * i),
+        st.integers(-2, 2).map(lambda j: 40.0 * j),
+        st.sampled_from([0.0, 0.0, 30.0]),
+    )
+    kinds = []
+    for name, force in (("suction", 69.0), ("magnets", 130.0)):
+        points = draw(st.lists(places, min_size=4, max_size=6, unique=True))
+        kinds.append(ElementKind(name, force, 10.0, 2, draw(st.integers(2, 4)), frozen(points)))
+    part = Part(5000.0, frozen([draw(st.floats(-20, 20)), draw(st.floats(-20, 20)), 10.0]))
+    return OptionSpace(part, tuple(kinds), frozen(corners), 0.6)
+
+
+@pytest.mark.parametrize("pairs", [PAIRS, 1], ids=["grids", "no room in the grids"])
+def test_grasps_of_many_elements_equal_brute_force(pairs, monkeypatch):
+    """From four elements on, too, the best three are those of all grasps, one by one."""
+    room = partial(make_many_room, pairs=pairs)
+    monkeypatch.setattr("grasp_xl.search.exact.make_many_room", room)
+
+    @settings(max_examples=60, deadline=None)
+    @given(space=crowded_spaces(), rules=any_rules())
+    def compare(space: OptionSpace, rules: Rules) -> None:
+        grasps = distinct(space, all_grasps(space, rules))
+        proof = solve(space, rules, ExactSettings(top=3))
+        assert proof.status == ("optimal" if grasps else "infeasible")
+        values = [grasp.value for grasp in grasps[:3]]
+        assert [grasp.value for grasp in proof.designs] == pytest.approx(values, rel=1e-8, abs=1e-9)
+
+    compare()
+
+
+@pytest.mark.parametrize("cores", [1, 3])
+def test_result_does_not_depend_on_the_number_of_cores(cores, monkeypatch):
+    """One core or three: the same nodes, bounds and designs."""
+    space, rules = plate(cups=40, magnets=40), some_rules(fos=9.0)
+
+    def course() -> list[object]:
+        steps: list[object] = []
+        proof = solve(
+            space, rules, ExactSettings(top=5), on_progress=lambda *told: steps.append(told)
+        )
+        return [*steps, proof.nodes, [grasp.chromosome for grasp in proof.designs]]
+
+    usual = course()
+    monkeypatch.setattr("os.cpu_count", lambda: cores)
+    assert course() == usual
+
+
+def test_stopped_search_tells_the_truth():
+    """Stopped in the middle, a search has a true bound, and what it found is a grasp."""
+    space, rules = plate(cups=60, magnets=60), some_rules(fos=9.0)
+    optimum = solve(space, rules).designs[0].value
+    for batches in (0, 1, 2, 5, 10):
+        seen: list[float] = []
+        proof = solve(
+            space,
+            rules,
+            stop=lambda: len(seen) >= batches,  # noqa: B023 (called within this turn only)
+            on_progress=lambda bound, _: seen.append(bound),  # noqa: B023
+        )
+        assert proof.bound <= optimum * (1 + 1e-9)
+        assert all(grasp.value >= optimum * (1 - 1e-9) for grasp in proof.designs)
+        assert proof.status in ("optimal", "feasible" if proof.designs else "unknown")
 
 
 def test_never_worse_than_a_genetic_run_and_bounds_are_true():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -15,16 +16,21 @@ import openpyxl
 import pytest
 from live_cases import CRITERIA, PLACES, Case, random_case
 from office import CellValue, Office, Place, need_arial, run_office
+from shapely import LineString, Point, Polygon
+from spaces import kind as element_kind
+from spaces import rectangle
 
 from grasp_xl import commands
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.stop import Generations
+from grasp_xl.space import OptionSpace, Part
 from grasp_xl.task import Parameters, Task
-from grasp_xl.workbook import layout
+from grasp_xl.workbook import grasp_sheet, layout
 from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.calc_sheet import CalcBlock
-from grasp_xl.workbook.designs_sheet import PICK_NAME, PICK_ROW
+from grasp_xl.workbook.designs_sheet import GENE_COLUMN, PICK_NAME, PICK_ROW
+from grasp_xl.workbook.grasp_sheet import Picture
 from grasp_xl.workbook.layout import (
     APPROXIMATION_COLUMN,
     FIRST_LOCATION_ROW,
@@ -240,7 +246,7 @@ def test_no_stored_value_is_needed(bracket, office, tmp_path):
         (PLAN.card(1).at(33, 5), "4.0001"),
         (PLAN.what_if.at(*STATUS), "Meets nothing."),
         (CalcBlock(0, PLAN.gene_slots, USER).element("to polygon", 0), "0"),
-        (Area(GRASP, FIRST_LOCATION_ROW, layout.GRASP_DATA_COLUMN + 3), "1.5"),
+        (Area(GRASP, FIRST_LOCATION_ROW, layout.GRASP_DATA_COLUMN + 4), "1.5"),
     ],
 )
 def test_a_wrong_stored_value_is_caught(cell, wrong, bracket, office, tmp_path):
@@ -707,13 +713,43 @@ def test_a_picked_design_is_loaded(opened, bracket):
     designs = int(opened.value("ValidDesignsFound"))
     for number in (1, designs // 2, designs):
         opened.enter({PICK_NAME: number})
-        (listed,) = opened.read(Area(VALID_DESIGNS, TABLE_ROW + number, 1, 1, 12))
+        (listed,) = opened.read(Area(VALID_DESIGNS, TABLE_ROW + number, GENE_COLUMN, 1, 12))
         assert opened.read(rows) == opened.read("WhatIf") == [listed[:6], listed[6:]]
         grasp = evaluate(task.space, task.rules, genes_of(opened.read("WhatIf")))
         assert missed(opened.read(GA_CELLS), PLAN.what_if, card_values(task, grasp)) == []
     for nonsense in (0, designs + 1, "abc", None):
         opened.enter({PICK_NAME: nonsense})
         assert opened.read(rows) == opened.read("WhatIf") == best
+
+
+def listed_genes(office: Office, number: int) -> list[list[CellValue]]:
+    """Return the two gene rows of a design, from the list."""
+    (row,) = office.read(Area(VALID_DESIGNS, TABLE_ROW + number, GENE_COLUMN, 1, 12))
+    return [row[:6], row[6:]]
+
+
+def judged_user_grasp(path: Path) -> Chromosome:
+    """Return the grasp that ``evaluate`` judges where no option names one."""
+    return commands.evaluate_grasp(path, Parameters(), (None, None))[1].chromosome
+
+
+@pytest.mark.parametrize("what", ["the picked rows", "the rows below the list"])
+def test_two_gene_rows_are_pasted_as_they_are(what, bracket, office, tmp_path):
+    """Pasted on the user-defined rows they show the design there, and are read as that; rows from below the list stay."""
+    book = Path(shutil.copy(bracket, tmp_path))
+    office.open(book)
+    number = int(office.value("ValidDesignsFound")) // 2
+    below = TABLE_ROW + 4 + int(office.value("ValidDesignsFound")) + 2 * number - 1
+    rows = {"the picked rows": (PICK_ROW + 2, 1), "the rows below the list": (below, GENE_COLUMN)}
+    wanted, first = listed_genes(office, number), listed_genes(office, 1)
+    assert wanted != first
+    office.enter({PICK_NAME: number})
+    office.paste(Area(VALID_DESIGNS, *rows[what], 2, 6), USER)
+    assert office.read(USER) == wanted
+    saved = office.save(tmp_path / "pasted.xlsx")
+    assert judged_user_grasp(saved) == genes_of(wanted)
+    office.enter({PICK_NAME: 1})
+    assert office.read(USER) == (first if what == "the picked rows" else wanted)
 
 
 @pytest.mark.parametrize("edit", EDITS)
@@ -726,6 +762,114 @@ def test_difference_is_0_until_something_is_typed(edit, opened):
     *children, what_if = opened.values(shown)
     assert children == [0 if edit == "genes" else "edited"] * PLAN.children
     assert what_if == "edited"
+
+
+# --- the pictures of the grasp ---
+
+
+def pictured(name: str) -> tuple[OptionSpace, Picture]:
+    """Return a sample's option space, and the picture of its user-defined grasp."""
+    task = task_of(SAMPLES / f"{name}.xlsx")
+    return task.space, Picture("", task.benchmark, CalcBlock(0, task.space.gene_slots, USER))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_grasp_picture_fills_every_element_to_its_true_diameter(name):
+    """The lines inside an outline leave no gap, touch it all around, and stay inside its edge."""
+    space, picture = pictured(name)
+    frame = grasp_sheet.frame_of(space)
+    point = 1 / 0.75 / frame.pixels_per_mm
+    shown = 0
+    for row in range(picture.block.size):
+        stroke = grasp_sheet._fill(space, picture, row, frame)
+        width, _ = grasp_sheet._filling(space, row // picture.block.slots, frame)
+        outline = grasp_sheet._outline(space, picture, row)
+        if "#N/A" in outline.points[0]:
+            assert {value for at in stroke.points for value in at} == {"#N/A"}
+            continue
+        shown += 1
+        radius = grasp_sheet._diameter_mm(space, row // picture.block.slots) / 2
+        circle = Polygon(outline.points)
+        centre = circle.centroid
+        assert [centre.distance(Point(at)) for at in outline.points] == pytest.approx([radius] * 37)
+        inked = LineString(stroke.points).buffer(width / 2 * point)
+        assert centre.buffer(0.98 * (radius - point)).within(inked)
+        assert inked.within(centre.buffer(1.001 * radius))
+    assert shown == len(picture.grasp.points_mm)
+
+
+@pytest.mark.parametrize("shape", [*NAMES, "tall", "wide", "tiny"])
+def test_a_grasp_picture_is_to_scale_and_wastes_little(shape):
+    """Both axes have one scale, show each element whole, and at most a tick distance beyond."""
+    if shape in NAMES:
+        space, _ = pictured(shape)
+    else:
+        size = {"tall": (90.0, 4000.0), "wide": (4000.0, 90.0), "tiny": (3.0, 2.0)}[shape]
+        part = Part(1000.0, np.array([size[0] / 2, 0.0, 0.0]))
+        kinds = (
+            element_kind("suction", [[0, 0, 0], [size[0], 0, 0]]),
+            element_kind("magnets", []),
+        )
+        space = OptionSpace(part, kinds, rectangle(*size), 0.65)
+    frame = grasp_sheet.frame_of(space)
+    low, high = np.array(frame.low_mm), np.array(frame.high_mm)
+    assert frame.pixels[0] * (high - low)[1] == pytest.approx(
+        frame.pixels[1] * (high - low)[0], rel=1e-12
+    )
+    assert max(frame.pixels[0] / 600, frame.pixels[1] / 500) == 1
+    corners = [space.approximation_polygon_mm[:, :2], space.ideal_polygon_mm[:, :2]]
+    for element, assumed in zip(space.kinds, layout.DEFAULT_DIAMETERS_MM, strict=True):
+        radius = (element.diameter_mm or assumed) / 2
+        corners += [element.footprints_mm[:, :2] + side for side in (-radius, radius)]
+    first, last = np.vstack(corners).min(axis=0), np.vstack(corners).max(axis=0)
+    spare = 0.02 * (last - first).max()
+    assert (low <= first).all()
+    assert (low >= first - frame.step_mm - spare).all()
+    assert (high >= last).all()
+    assert (high <= last + spare + 1 / frame.pixels_per_mm).all()
+    steps = low / frame.step_mm
+    assert steps == pytest.approx(np.round(steps), abs=1e-9)
+
+
+def test_a_grasp_chart_has_the_scale_of_its_frame(bracket):
+    """The file's plot areas are as wide to high as their axes are long, in both pictures."""
+    frame = grasp_sheet.frame_of(task_of(bracket).space)
+    found = 0
+    with zipfile.ZipFile(bracket) as parts:
+        for name in parts.namelist():
+            chart = parts.read(name).decode() if name.startswith("xl/charts/chart") else ""
+            if " grasp</a:t>" not in chart:
+                continue
+            found += 1
+            inner = chart[chart.index('<c:layoutTarget val="inner"') :]
+            width, height = (
+                float(re.search(rf'<c:{side} val="([^"]*)"', inner)[1]) * pixels
+                for side, pixels in zip("wh", frame.size, strict=True)
+            )
+            ends = {
+                end: [float(at) for at in re.findall(rf'<c:{end} val="([^"]*)"', chart)]
+                for end in ("min", "max")
+            }
+            x, y = np.subtract(ends["max"], ends["min"])
+            assert width / height == pytest.approx(x / y, rel=1e-9)
+    assert found == 2
+    assert bracket.stat().st_size < 400_000
+
+
+def test_grasp_pictures_follow_a_typed_diameter(opened):
+    """The outline has the diameter as typed, and the fill stays inside it."""
+    left = layout.GRASP_DATA_COLUMN + 4
+    fill, outline = (
+        Area(GRASP, grasp_sheet.FIRST_POINT, left + 2 * column, rows, 2)
+        for column, rows in ((0, len(grasp_sheet.FILL)), (10 + 1 + 10, len(grasp_sheet.OUTLINE)))
+    )
+    for diameter in (46.0, 20.0, 90.0):
+        opened.enter({"SuctionDiameter": diameter})
+        edge = np.array(opened.read(outline), dtype=float)
+        centre = edge[:-1].mean(axis=0)
+        assert np.hypot(*(edge - centre).T) == pytest.approx(diameter / 2)
+        rings = np.array(opened.read(fill), dtype=float)
+        assert np.hypot(*(rings - centre).T).max() < diameter / 2
 
 
 def test_places_that_change_places_are_an_edit(opened):
@@ -750,26 +894,41 @@ def test_places_that_change_places_are_an_edit(opened):
 
 @pytest.mark.parametrize("paper_mm", [(297.0, 210.0), (279.4, 215.9)], ids=["A4", "Letter"])
 def test_no_page_is_cut(paper_mm, bracket, office):
-    """Each print area takes one page, in either paper; only the list of 104 magnets takes four."""
+    """Each print area takes one page, in either paper; only the list of 104 magnets takes three."""
     need_arial()
     office.open(bracket)
     with zipfile.ZipFile(bracket) as parts:
         book = parts.read("xl/workbook.xml").decode()
     areas = re.findall(r"_xlnm.Print_Area[^>]*>([^<]*)<", book)
     assert len(areas) == len(layout.SHEETS)
-    assert office.pages(*paper_mm) == sum(area.count("!") for area in areas) + 3
+    assert office.pages(*paper_mm) == sum(area.count("!") for area in areas) + 2
 
 
-def test_wide_cards_are_whole(office, tmp_path):
-    """With a Max. of 8 still each print area takes one page."""
+@pytest.fixture(scope="module", params=[8, 10])
+def wide_book(request, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Make a result of the bracket with a Max. above 5."""
+    folder = tmp_path_factory.mktemp("wide")
+    book = openpyxl.load_workbook(SAMPLES / "bracket.xlsx")
+    for sheet in set(layout.SHEETS) - {OPTION_SPACE}:
+        del book[sheet]
+    for cell in ("B12", "B20"):
+        book[OPTION_SPACE][cell] = request.param
+    book.save(folder / "export.xlsx")
+    path = folder / "result.xlsx"
+    output = commands.Output(path)
+    commands.run(folder / "export.xlsx", Parameters(), output, stop=lambda _: [Generations(300)])
+    return path
+
+
+@pytest.mark.parametrize("paper_mm", [(297.0, 210.0), (279.4, 215.9)], ids=["A4", "Letter"])
+def test_no_wide_page_is_cut(paper_mm, wide_book, office):
+    """With up to ten place genes, too, each print area takes one page, the list of magnets three."""
     need_arial()
-    path = tmp_path / "wide.xlsx"
-    path.write_bytes(random_case(18).workbook())
-    with zipfile.ZipFile(path) as parts:
+    office.open(wide_book)
+    with zipfile.ZipFile(wide_book) as parts:
         book = parts.read("xl/workbook.xml").decode()
     areas = re.findall(r"_xlnm.Print_Area[^>]*>([^<]*)<", book)
-    office.open(path)
-    assert office.pages(297.0, 210.0) == sum(area.count("!") for area in areas)
+    assert office.pages(*paper_mm) == sum(area.count("!") for area in areas) + 2
 
 
 # --- formulas that every program has ---

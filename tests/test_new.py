@@ -18,6 +18,7 @@ from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book
 from grasp_xl.workbook.carrying import carried, is_usable
+from grasp_xl.workbook.writing import export_workbook
 
 GENES = ((2, 3, 6, 1, 1, 1), (2, 1, 5, 1, 1, 1))
 PARAMETERS = {
@@ -139,6 +140,35 @@ def test_a_program_assigned_grasp_is_nobodys(tmp_path: Path) -> None:
     assert shown(path, "UserChromosome", -2, -1).endswith("(program-assigned)")
     assert genes(read_book(path).user_chromosome) is None
     type_into(path, {"UserChromosome": GENES})
+    assert genes(read_book(path).user_chromosome) == GENES
+
+
+@pytest.mark.parametrize(
+    "edit",
+    [{"SuctionMin": 2}, {"SuctionPrice": 450}, {"MagnetMax": 1}],
+)
+def test_a_program_assigned_grasp_is_assigned_anew_for_an_edited_option_space(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], edit: dict[str, object]
+) -> None:
+    """The benchmark is the one that an export of the same option space gets, and still nobody's."""
+    path, fresh = tmp_path / "book.xlsx", tmp_path / "fresh.xlsx"
+    assert new(export(tmp_path / "tiny.xlsx"), path, "--quiet") == 0
+    type_into(path, edit)
+    space = read_book(path).space
+    fresh.write_bytes(export_workbook(space))
+    benchmarks = []
+    for file in (path, fresh):
+        assert cli.main(["evaluate", str(file), "--json"]) == 0
+        benchmarks.append(json.loads(capsys.readouterr().out)["genes"])
+    assert benchmarks[0] == benchmarks[1]
+    assert cli.main(["run", str(path), "--in-place", "--generations", "3", "--quiet"]) == 0
+    assert shown(path, "UserChromosome", -2, -1).endswith("(program-assigned)")
+
+
+def test_a_program_assigned_grasp_that_is_typed_over_stays_after_edits(tmp_path: Path) -> None:
+    path = tmp_path / "book.xlsx"
+    assert new(export(tmp_path / "tiny.xlsx"), path, "--quiet") == 0
+    type_into(path, {"PartMass": 6000, "UserChromosome": GENES})
     assert genes(read_book(path).user_chromosome) == GENES
 
 

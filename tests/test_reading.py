@@ -33,6 +33,7 @@ from bad_workbooks import (
 )
 from spaces import plate
 
+from grasp_xl.errors import InputError
 from grasp_xl.rules import Criterion
 from grasp_xl.space import ElementKind, OptionSpace, frozen
 from grasp_xl.task import Parameters
@@ -300,6 +301,42 @@ def test_a_typed_ideal_polygon_beats_the_approximation(path: Path) -> None:
     sheets = {SHEET: export_rows() | live_polygon(range(0))}
     space = read(path, sheets, LIVE_NAMES).space
     np.testing.assert_allclose(space.approximation_polygon_mm, PLATE, rtol=0, atol=1e-12)
+
+
+def test_lost_polygon_formulas_are_calculated_again(path: Path) -> None:
+    """Some programs save neither formulas nor names; then the approximation's label is enough."""
+    lost = {f"{column}{row}": None for column in "LMN" for row in range(3, 7)}
+    cells = export_rows() | live_polygon(range(0)) | lost | {"P1": "Approximation polygon"}
+    for names in (LIVE_NAMES, {}):
+        space = read(path, {SHEET: cells}, names).space
+        assert space.approximation_polygon_mm.tolist() == [list(corner) for corner in SQUARE]
+
+
+@pytest.mark.parametrize("formula_rows", [range(3, 7), range(0)], ids=["live", "typed"])
+def test_a_corner_may_be_added_below_a_named_polygon(path: Path, formula_rows: range) -> None:
+    """It counts as a row below a list of places does, with or without its index."""
+    fifth = (0.0, -95.0, 10.0)
+    sheets = {SHEET: export_rows() | live_polygon(formula_rows)}
+    columns = "QRS" if formula_rows else "LMN"
+    sheets[SHEET] |= {f"{c}7": value for c, value in zip(columns, fifth, strict=True)}
+    space = read(path, sheets, LIVE_NAMES).space
+    polygon = space.approximation_polygon_mm if formula_rows else space.ideal_polygon_mm
+    assert len(polygon) == 5
+    np.testing.assert_allclose(polygon[4], fifth, rtol=0, atol=1e-12)
+
+
+def test_the_last_corner_of_a_named_polygon_may_be_cleared(path: Path) -> None:
+    """A cleared corner before the last is a gap, and named."""
+    sheets = {SHEET: export_rows() | live_polygon(range(3, 7))}
+    sheets[SHEET] |= dict.fromkeys(("Q6", "R6", "S6"))
+    assert len(read(path, sheets, LIVE_NAMES).space.approximation_polygon_mm) == 3
+    sheets[SHEET] |= live_polygon(range(3, 7)) | dict.fromkeys(("Q5", "R5", "S5"))
+    write_book(path, sheets, LIVE_NAMES)
+    with pytest.raises(InputError) as refusal:
+        read_book(path)
+    assert [problem.where for problem in refusal.value.problems] == [
+        f"{SHEET}!{column}5" for column in "QRS"
+    ]
 
 
 def test_diameters_and_models_are_read(path: Path) -> None:

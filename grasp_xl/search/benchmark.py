@@ -8,7 +8,8 @@ from grasp_xl.chromosome import Chromosome
 from grasp_xl.kernels import measure_rows, tabulate
 from grasp_xl.rules import Goals, Requirements, Rules, Terms
 from grasp_xl.search.evolution import draw_feasible
-from grasp_xl.search.feasibility import any_feasible, lifting_counts
+from grasp_xl.search.feasibility import lifting_counts
+from grasp_xl.search.obstacles import any_feasible
 from grasp_xl.space import OptionSpace
 
 SAMPLE = 1_000

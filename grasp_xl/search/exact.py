@@ -9,18 +9,19 @@ from __future__ import annotations
 
 import math
 import os
+import threading
 import time
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, Self
 
 import numpy as np
 
 from grasp_xl.chromosome import Chromosome, from_active
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import SLACK, Rules
-from grasp_xl.search.exact_bound import make_room, node_bound
+from grasp_xl.search.exact_bound import Room, make_room, node_bound
 from grasp_xl.search.exact_kernel import (
     Nodes,
     expand,
@@ -29,14 +30,23 @@ from grasp_xl.search.exact_kernel import (
     take_batch,
 )
 from grasp_xl.search.exact_leaf import ENTRIES
+from grasp_xl.search.exact_many import ManyRoom, make_many_room
 from grasp_xl.search.exact_model import locate, weigh, weigh_goals
 from grasp_xl.search.feasibility import lifting_counts
+from grasp_xl.search.floors import floors
+from grasp_xl.search.symmetry import representative, symmetries
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
 
 Status = Literal["optimal", "feasible", "infeasible", "unknown"]
 
 BATCH = 64
 """Nodes that are expanded at once; the same on every machine, so that results are."""
+
+PART = 4
+"""Nodes that a worker takes at a time."""
+
+POLL_SECONDS = 0.05
+"""How often somebody's wish to stop is looked for while nodes are expanded."""
 
 PROOF = 1e-9
 """Relative accuracy of the proof: no grasp is better by more than that."""
@@ -62,7 +72,7 @@ class ExactSettings:
     gap : float
         Relative gap at which the search may stop.
     top : int
-        Number of best grasps wanted, >= 1.
+        Number of best grasps wanted, >= 1; images of one another count once.
     meet_goals : bool
         Only grasps whose every normalised value is at most 1.
     min_elements : int
@@ -147,11 +157,12 @@ class Found(NamedTuple):
 
 
 class _Frontier:
-    """Open nodes, best bound first."""
+    """Open nodes, best first."""
 
     def __init__(self, elements: int) -> None:
         self._nodes = make_nodes(0, elements)
         self._order = np.zeros(0, dtype=np.int64)
+        self._key = np.zeros(0)
         self._age = np.zeros(0, dtype=np.int64)
         self._size = 0
         self._born = 0
@@ -162,27 +173,29 @@ class _Frontier:
     @property
     def bound(self) -> float:
         """Least bound, infinity where no node is open."""
-        return float(self._nodes.bound[self._order[0]]) if self._size else math.inf
+        return float(self._nodes.bound[self._order[: self._size]].min(initial=math.inf))
+
+    @property
+    def key(self) -> float:
+        """Key of the node that comes first, infinity where none is open."""
+        return float(self._key[self._order[0]]) if self._size else math.inf
 
     def take(self, batch: Nodes, below: float) -> int:
         """Move the first nodes below a bound into a batch; return how many."""
-        taken = take_batch(self._nodes, self._order, self._age, self._size, batch, below)
-        self._size -= taken
+        taken, self._size = take_batch(
+            self._nodes, self._order, self._key, self._age, self._size, batch, below
+        )
         return taken
 
     def put(self, children: Nodes, born: IntArray, below: float) -> None:
         """Take in all children with a bound below a limit."""
         self._make_room(int(born.sum()))
         size = put_children(
-            *(self._nodes, self._order, self._age, self._size, self._born),
+            *(self._nodes, self._order, self._key, self._age, self._size, self._born),
             *(children, born, below),
         )
         self._born += size - self._size
         self._size = size
-
-    def clear(self) -> None:
-        """Drop all nodes."""
-        self._size = 0
 
     def _make_room(self, more: int) -> None:
         capacity = len(self._order)
@@ -193,6 +206,7 @@ class _Frontier:
         self._nodes = make_nodes(capacity + new, old.boxes.shape[1])
         for kept, field in zip(self._nodes, old, strict=True):
             kept[:capacity] = field
+        self._key = np.concatenate([self._key, np.zeros(new)])
         self._age = np.concatenate([self._age, np.zeros(new, dtype=np.int64)])
         self._order = np.concatenate([self._order, np.arange(capacity, capacity + new)])
 
@@ -208,6 +222,7 @@ class _Search:
         self.space, self.rules, self.settings = space, rules, settings
         self.began = time.perf_counter()
         self.pool: list[Found] = []
+        self.symmetries = symmetries(space) if settings.top > 1 else ()
         self.expanded = self.batches = 0
         self.counts = [
             counts
@@ -249,57 +264,36 @@ class _Search:
         return PROOF * abs(self.upper) if self.upper < math.inf else 0.0
 
     def _take(self, found: Found) -> None:
-        """Enter a grasp: values within 1e-9 are equal, and then the smaller indices come first."""
-        if any(other.active == found.active for other in self.pool):
-            return
-        self.pool.append(found)
-        self.pool.sort(key=lambda item: (_rounded(item.value), item.active))
-        del self.pool[self.settings.top :]
+        """Enter a grasp: values within 1e-9 are equal, and then the smaller indices come first.
+
+        Of grasps that are images of one another only the first is kept.
+        """
+        rising = sorted([*self.pool, found], key=lambda item: (_rounded(item.value), item.active))
+        firsts: dict[tuple[tuple[int, ...], ...], Found] = {}
+        for item in rising:
+            firsts.setdefault(representative(self.symmetries, item.active), item)
+        self.pool = list(firsts.values())[: self.settings.top]
 
     # --- the search ---
 
     def run(self, stop: Callable[[], bool], on_progress: OnBound | None) -> Proof:
         """Expand nodes until none is left that could hold a better grasp, or somebody stops."""
-        workers = os.cpu_count() or 1
-        rooms = [make_room(len(self.locations.xyz), self.elements, ENTRIES) for _ in range(workers)]
-        batch = make_nodes(BATCH, self.elements)
-        children = make_nodes((BATCH, self.elements + 1), self.elements)
-        born = np.zeros(BATCH, dtype=np.int64)
-        found = np.zeros((BATCH, self.settings.top))
-        genes = np.zeros((BATCH, self.settings.top, self.elements, 2), dtype=np.int64)
+
+        def asked_to_stop() -> bool:
+            return stop() or self._out_of_time()
+
         self._start()
-        with ThreadPoolExecutor(workers) as threads:
-
-            def work(worker: int) -> None:
-                expand(
-                    self.locations,
-                    self.weights,
-                    self.goal_weights,
-                    batch,
-                    taken,
-                    worker,
-                    workers,
-                    upper,
-                    slack,
-                    children,
-                    born,
-                    found,
-                    genes,
-                    rooms[worker],
-                )
-
-            while not (stop() or self._out_of_time() or self._close_enough()):
+        with _Workers(self) as workers:
+            while not (asked_to_stop() or self._close_enough()):
                 upper, slack = self.upper, self.slack
-                frontier = self._next_frontier()
-                taken = frontier.take(batch, upper - slack)
+                taken, frontier = self._take_batch(workers.batch, upper - slack)
                 if taken == 0:
-                    self.few.clear()
-                    self.many.clear()
                     break
-                list(threads.map(work, range(workers)))
+                workers.expand(taken, upper, slack, asked_to_stop)
                 for i in range(taken):
-                    self._take_all(found[i], genes[i], sum(self.counts[batch.choice[i]]), upper)
-                frontier.put(children, born[:taken], self.upper - self.slack)
+                    elements = sum(self.counts[workers.batch.choice[i]])
+                    self._take_all(workers.found[i], workers.genes[i], elements, upper)
+                frontier.put(workers.children, workers.born[:taken], self.upper - self.slack)
                 self.expanded += taken
                 self.batches += 1
                 if on_progress:
@@ -309,19 +303,24 @@ class _Search:
     def _start(self) -> None:
         """Open the root nodes: one for each choice of counts, with all elements in the root box."""
         room = make_room(len(self.locations.xyz), self.elements, 1)
+        need = self.rules.requirements
+        floor = self.rules.value(floors(self.space, need)) if self.counts else math.inf
         for number, counts in enumerate(self.counts):
             root = make_nodes((1, 1), self.elements)
             root.choice[:] = number
-            root.bound[:] = node_bound(
+            bound = node_bound(
                 *(self.locations, self.weights[number], root.boxes[0, 0], self.upper),
                 *(root.u[0, 0, 0], ROOT_STEPS, room),
             )
+            root.bound[:] = max(bound, floor)
             frontier = self.few if sum(counts) <= FEW_ELEMENTS else self.many
             frontier.put(root, np.ones(1, dtype=np.int64), self.upper - self.slack)
 
-    def _next_frontier(self) -> _Frontier:
-        first = self.batches < FEW_BATCHES and self.few.bound < self.upper - self.slack
-        return self.few if first or self.few.bound < self.many.bound else self.many
+    def _take_batch(self, batch: Nodes, below: float) -> tuple[int, _Frontier]:
+        first = self.batches < FEW_BATCHES or self.few.key < self.many.key
+        frontier, other = (self.few, self.many) if first else (self.many, self.few)
+        taken = frontier.take(batch, below)
+        return (taken, frontier) if taken else (other.take(batch, below), other)
 
     def _take_all(self, values: FloatArray, genes: IntArray, elements: int, upper: float) -> None:
         for value, rows in zip(values.tolist(), genes, strict=True):
@@ -370,3 +369,79 @@ class _Search:
 def _rounded(value: float) -> float:
     """Round to nine significant digits, so that equal values sort by their grasps."""
     return float(f"{value:.9g}")
+
+
+class _Workers:
+    """Threads that expand a batch of nodes; what comes of each node depends on the node alone."""
+
+    def __init__(self, search: _Search) -> None:
+        self._search = search
+        places, elements = len(search.locations.xyz), search.elements
+        top = search.settings.top * (1 + len(search.symmetries))
+        cores = os.cpu_count() or 1
+        self.halt = np.zeros(1, dtype=np.int64)
+        self.rooms = [
+            (make_room(places, elements, ENTRIES), make_many_room(places, elements, self.halt))
+            for _ in range(cores)
+        ]
+        self.batch = make_nodes(BATCH, elements)
+        self.children = make_nodes((BATCH, elements + 1), elements)
+        self.born = np.zeros(BATCH, dtype=np.int64)
+        self.found = np.zeros((BATCH, top))
+        self.genes = np.zeros((BATCH, top, elements, 2), dtype=np.int64)
+        self._threads = ThreadPoolExecutor(cores)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._threads.shutdown()
+
+    def expand(
+        self, taken: int, upper: float, slack: float, asked_to_stop: Callable[[], bool]
+    ) -> None:
+        """Expand the first nodes of the batch; those not done when asked to stop stay as they are.
+
+        An error in a thread is raised here: it voids the proof.
+        """
+        parts = _Shared(range(0, taken, PART))
+
+        def work(room: Room, many: ManyRoom) -> None:
+            for first in parts:
+                expand(
+                    self._search.locations,
+                    self._search.weights,
+                    self._search.goal_weights,
+                    self.batch,
+                    first,
+                    min(first + PART, taken),
+                    upper,
+                    slack,
+                    self.children,
+                    self.born,
+                    self.found,
+                    self.genes,
+                    room,
+                    many,
+                )
+
+        running = [self._threads.submit(work, *rooms) for rooms in self.rooms]
+        while wait(running, POLL_SECONDS).not_done:
+            self.halt[0] = self.halt[0] or asked_to_stop()
+        for thread in running:
+            thread.result()
+
+
+class _Shared:
+    """An iterator that threads share: each value goes to one of them."""
+
+    def __init__(self, values: Iterable[int]) -> None:
+        self._values = iter(values)
+        self._lock = threading.Lock()
+
+    def __iter__(self) -> Iterator[int]:
+        return self
+
+    def __next__(self) -> int:
+        with self._lock:
+            return next(self._values)

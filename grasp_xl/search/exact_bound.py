@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from grasp_xl.compiled import allocation_free
+from grasp_xl.compiled import allocation_free, inner
 from grasp_xl.rules import SLACK
 from grasp_xl.search.exact_model import CUPS, MAGNETS, Locations
 from grasp_xl.space import FloatArray, IntArray
@@ -99,7 +99,15 @@ def make_room(locations: int, elements: int, entries: int) -> Room:
 # --- geometry of boxes ---
 
 
-@allocation_free
+@inner
+def squared_distance(loc: Locations, p: int, q: int) -> float:
+    """Return the squared plan-view distance of two locations (mm^2)."""
+    dx, dy = loc.xyz[p, 0] - loc.xyz[q, 0], loc.xyz[p, 1] - loc.xyz[q, 1]
+    squared: float = dx * dx + dy * dy
+    return squared
+
+
+@inner
 def box_squares(p: FloatArray, q: FloatArray) -> tuple[float, float]:
     """Return the squares of the least and the largest distance between points of two boxes."""
     dx = max(0.0, p[0] - q[2], q[0] - p[2])
@@ -109,13 +117,13 @@ def box_squares(p: FloatArray, q: FloatArray) -> tuple[float, float]:
     return dx * dx + dy * dy, fx * fx + fy * fy
 
 
-@allocation_free
+@inner
 def no_truss() -> Truss:
     """Return the truss that limits nothing."""
     return Truss(-1, -1, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf, 0.0)
 
 
-@allocation_free
+@inner
 def truss_of(loc: Locations, w: Weights, boxes: IntArray) -> Truss:
     """Return where the truss of a node may lie."""
     if w.trussed == 0:
@@ -141,7 +149,7 @@ def truss_of(loc: Locations, w: Weights, boxes: IntArray) -> Truss:
     )
 
 
-@allocation_free
+@inner
 def is_barred(loc: Locations, t: Truss, box: int) -> bool:
     """Tell whether no location of a box may hold an element besides the truss's ends [2]."""
     if t.a < 0:
@@ -153,7 +161,7 @@ def is_barred(loc: Locations, t: Truss, box: int) -> bool:
     return near > t.reach or far < t.apart
 
 
-@allocation_free
+@inner
 def branch(loc: Locations, t: Truss, box: int) -> float:
     """Return the least length of a branch from a box to the main truss (mm) [3]."""
     if t.a < 0:
@@ -165,7 +173,7 @@ def branch(loc: Locations, t: Truss, box: int) -> float:
     return length
 
 
-@allocation_free
+@inner
 def group_end(w: Weights, boxes: IntArray, n: int, first: int) -> int:
     """Return the index behind the last element of the cell that begins at ``first``."""
     last = first + 1
@@ -178,7 +186,7 @@ def group_end(w: Weights, boxes: IntArray, n: int, first: int) -> int:
 # --- prices of single elements ---
 
 
-@allocation_free
+@inner
 def along(loc: Locations, box: int, u: FloatArray) -> float:
     """Return the least u . p over a box (mm)."""
     c = loc.corners[box]
@@ -189,7 +197,7 @@ def along(loc: Locations, box: int, u: FloatArray) -> float:
     return least
 
 
-@allocation_free
+@inner
 def kind_price(w: Weights, kind: int, reach: float, u: FloatArray) -> float:
     """Return the part of an element's price that depends on its kind [4]; reach is u . p (mm)."""
     part: float = w.cup_pull * w.moment * reach
@@ -198,7 +206,7 @@ def kind_price(w: Weights, kind: int, reach: float, u: FloatArray) -> float:
     return part
 
 
-@allocation_free
+@inner
 def price(loc: Locations, w: Weights, t: Truss, box: int, u: FloatArray) -> tuple[float, int]:
     """Return the least price of an element in a box [4], and its kind; exact at one location."""
     reach = along(loc, box, u)
@@ -216,7 +224,7 @@ def price(loc: Locations, w: Weights, t: Truss, box: int, u: FloatArray) -> tupl
 # --- the Lagrangian bound ---
 
 
-@allocation_free
+@inner
 def push(room: Room, size: int, value: float, tag: int) -> None:
     """Put an item into the heap of ``size`` items."""
     i = size
@@ -229,7 +237,7 @@ def push(room: Room, size: int, value: float, tag: int) -> None:
     room.price[i], room.tag[i] = value, tag
 
 
-@allocation_free
+@inner
 def pop(room: Room, size: int) -> None:
     """Take the least item off the heap, which has ``size`` items afterwards."""
     value, tag = room.price[size], room.tag[size]
@@ -247,7 +255,7 @@ def pop(room: Room, size: int) -> None:
     room.price[i], room.tag[i] = value, tag
 
 
-@allocation_free
+@inner
 def joins_clique(loc: Locations, w: Weights, place: int, cliques: int, room: Room) -> bool:
     """Put a location into the first clique whose members are all too close to it, if any [5]."""
     x, y = loc.xyz[place, 0], loc.xyz[place, 1]
@@ -268,7 +276,7 @@ def joins_clique(loc: Locations, w: Weights, place: int, cliques: int, room: Roo
     return False
 
 
-@allocation_free
+@inner
 def cheapest(
     loc: Locations,
     w: Weights,
@@ -314,7 +322,7 @@ def cheapest(
     return total
 
 
-@allocation_free
+@inner
 def relaxed(
     loc: Locations, w: Weights, t: Truss, boxes: IntArray, n: int, u: FloatArray, room: Room
 ) -> float:
@@ -332,7 +340,7 @@ def relaxed(
     return total
 
 
-@allocation_free
+@inner
 def balance(loc: Locations, w: Weights, n: int, u: FloatArray, room: Room) -> float:
     """Return the price of a magnet at which the picks have as many as wanted [7]; nan if none."""
     sorted_to = room.difference
@@ -357,7 +365,7 @@ def balance(loc: Locations, w: Weights, n: int, u: FloatArray, room: Room) -> fl
     return (low + high) / 2 if high < np.inf else low
 
 
-@allocation_free
+@inner
 def ascend(
     loc: Locations,
     w: Weights,
@@ -423,13 +431,13 @@ def ascend(
 # --- the direct bound of few elements ---
 
 
-@allocation_free
+@inner
 def gap(low: float, high: float) -> float:
     """Return the distance from 0 to an interval."""
     return max(0.0, low, -high)
 
 
-@allocation_free
+@inner
 def last_bound(
     loc: Locations,
     w: Weights,
@@ -482,7 +490,7 @@ def last_bound(
     return best
 
 
-@allocation_free
+@inner
 def direct_bound(
     loc: Locations,
     w: Weights,
@@ -530,7 +538,7 @@ def direct_bound(
 # --- the bound of a node ---
 
 
-@allocation_free
+@inner
 def can_hold(loc: Locations, w: Weights, t: Truss, boxes: IntArray, n: int) -> bool:
     """Tell whether distances and room in the boxes allow any grasp at all [2]."""
     for i in range(n):
@@ -550,7 +558,7 @@ def can_hold(loc: Locations, w: Weights, t: Truss, boxes: IntArray, n: int) -> b
     return True
 
 
-@allocation_free
+@inner
 def shortest_truss(loc: Locations, w: Weights, t: Truss) -> float:
     """Return the least length of the main truss (mm), infinite where none is long enough [1]."""
     if t.a < 0:

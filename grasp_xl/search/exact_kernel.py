@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grasp_xl.compiled import allocation_free, compiled
+from grasp_xl.compiled import compiled, inner
 from grasp_xl.kernels import RecordArray
 from grasp_xl.search.exact_bound import (
     MULTIPLIERS,
@@ -22,11 +22,23 @@ from grasp_xl.search.exact_bound import (
     truss_of,
 )
 from grasp_xl.search.exact_leaf import BUDGET, ENTRIES, enumerate_node
+from grasp_xl.search.exact_many import (
+    MANY_MAX,
+    MANY_MIN,
+    ManyRoom,
+    enumerate_many,
+)
 from grasp_xl.search.exact_model import Locations
 from grasp_xl.space import FloatArray, IntArray
 
 STEPS = 4
 """Steps of the multipliers at a node; they go on from its parent's."""
+
+STEPS_OF_MANY = 12
+"""Steps before the grasps on one main truss are enumerated."""
+
+DEFERRAL = 0.02
+"""A node that was tried in vain waits for others, as if its bound were higher by so much a try."""
 
 SIDES = 2
 """Sets of multipliers of a node: one for the value, one for the sum of the goals."""
@@ -36,13 +48,15 @@ class Nodes(NamedTuple):
     """Nodes of the search.
 
     bound ``(n,)``; u ``(n, SIDES, MULTIPLIERS)``; choice ``(n,)`` row of the weights; boxes
-    ``(n, elements)``, behind a node's own elements 0.
+    ``(n, elements)``, behind a node's own elements 0; tries ``(n,)`` how often its grasps were
+    enumerated in part.
     """
 
     bound: FloatArray
     u: FloatArray
     choice: IntArray
     boxes: IntArray
+    tries: IntArray
 
 
 def make_nodes(shape: int | tuple[int, ...], elements: int) -> Nodes:
@@ -53,31 +67,32 @@ def make_nodes(shape: int | tuple[int, ...], elements: int) -> Nodes:
         np.zeros((*shape, SIDES, MULTIPLIERS)),
         np.zeros(shape, dtype=np.int64),
         np.zeros((*shape, elements), dtype=np.int64),
+        np.zeros(shape, dtype=np.int64),
     )
 
 
 # --- open nodes, best first ---
 
 
-@allocation_free
-def comes_first(bound: FloatArray, age: IntArray, p: int, q: int) -> bool:
-    """Tell whether node p is expanded before q: the lower bound, then the newer one."""
-    return bound[p] < bound[q] or (bound[p] == bound[q] and age[p] > age[q])
+@inner
+def comes_first(key: FloatArray, age: IntArray, p: int, q: int) -> bool:
+    """Tell whether node p is expanded before q: the lower key, then the newer one."""
+    return key[p] < key[q] or (key[p] == key[q] and age[p] > age[q])
 
 
-@allocation_free
-def sift_up(order: IntArray, size: int, bound: FloatArray, age: IntArray) -> None:
+@inner
+def sift_up(order: IntArray, size: int, key: FloatArray, age: IntArray) -> None:
     """Move the last of ``size`` nodes to its place in the heap ``order``."""
     i = size - 1
     row = order[i]
-    while i > 0 and comes_first(bound, age, row, order[(i - 1) // 2]):
+    while i > 0 and comes_first(key, age, row, order[(i - 1) // 2]):
         order[i] = order[(i - 1) // 2]
         i = (i - 1) // 2
     order[i] = row
 
 
-@allocation_free
-def take_first(order: IntArray, size: int, bound: FloatArray, age: IntArray) -> int:
+@inner
+def take_first(order: IntArray, size: int, key: FloatArray, age: IntArray) -> int:
     """Take the first node off the heap of ``size`` nodes; its slot goes behind the others."""
     first, row = order[0], order[size - 1]
     i = 0
@@ -85,9 +100,9 @@ def take_first(order: IntArray, size: int, bound: FloatArray, age: IntArray) -> 
         child = 2 * i + 1
         if child >= size - 1:
             break
-        if child + 1 < size - 1 and comes_first(bound, age, order[child + 1], order[child]):
+        if child + 1 < size - 1 and comes_first(key, age, order[child + 1], order[child]):
             child += 1
-        if not comes_first(bound, age, order[child], row):
+        if not comes_first(key, age, order[child], row):
             break
         order[i] = order[child]
         i = child
@@ -98,23 +113,36 @@ def take_first(order: IntArray, size: int, bound: FloatArray, age: IntArray) -> 
 
 @compiled
 def take_batch(
-    nodes: Nodes, order: IntArray, age: IntArray, size: int, batch: Nodes, below: float
-) -> int:
-    """Move the first nodes with a bound below a limit into a batch; return how many."""
+    nodes: Nodes,
+    order: IntArray,
+    key: FloatArray,
+    age: IntArray,
+    size: int,
+    batch: Nodes,
+    below: float,
+) -> tuple[int, int]:
+    """Move the first nodes with a bound below a limit into a batch; the others are dropped.
+
+    Returns how many were moved, and how many are left open.
+    """
     taken = 0
-    while taken < len(batch.bound) and size > 0 and nodes.bound[order[0]] < below:
-        row = take_first(order, size, nodes.bound, age)
+    while taken < len(batch.bound) and size > 0:
+        row = take_first(order, size, key, age)
         size -= 1
+        if nodes.bound[row] >= below:
+            continue
         batch.bound[taken], batch.choice[taken] = nodes.bound[row], nodes.choice[row]
         batch.u[taken], batch.boxes[taken] = nodes.u[row], nodes.boxes[row]
+        batch.tries[taken] = nodes.tries[row]
         taken += 1
-    return taken
+    return taken, size
 
 
 @compiled
 def put_children(
     nodes: Nodes,
     order: IntArray,
+    key: FloatArray,
     age: IntArray,
     size: int,
     oldest: int,
@@ -128,29 +156,31 @@ def put_children(
     """
     for i in range(len(born)):
         for c in range(born[i]):
-            if children.bound[i, c] >= below:
+            bound, tries = children.bound[i, c], children.tries[i, c]
+            if bound >= below:
                 continue
             row = order[size]
-            nodes.bound[row], nodes.choice[row] = children.bound[i, c], children.choice[i, c]
+            nodes.bound[row], nodes.choice[row] = bound, children.choice[i, c]
             nodes.u[row], nodes.boxes[row] = children.u[i, c], children.boxes[i, c]
-            age[row] = oldest
+            nodes.tries[row] = tries
+            key[row], age[row] = bound + DEFERRAL * tries * abs(bound), oldest
             oldest += 1
             size += 1
-            sift_up(order, size, nodes.bound, age)
+            sift_up(order, size, key, age)
     return size
 
 
 # --- splitting ---
 
 
-@allocation_free
+@inner
 def width(loc: Locations, box: int) -> float:
     """Return the larger side of a box (mm); -1 for a single location."""
     c = loc.corners[box]
     return -1.0 if loc.child[box, 0] < 0 else max(c[2] - c[0], c[3] - c[1])
 
 
-@allocation_free
+@inner
 def to_split(loc: Locations, w: Weights, boxes: IntArray, n: int) -> int:
     """Return which box to split: the wider end of the truss, then the widest cell; -1 if none."""
     widest, at = -1.0, -1
@@ -162,7 +192,7 @@ def to_split(loc: Locations, w: Weights, boxes: IntArray, n: int) -> int:
     return at
 
 
-@allocation_free
+@inner
 def tighten(loc: Locations, t: Truss, box: int) -> int:
     """Return the smallest box that holds all locations of a cell that are not barred."""
     while loc.child[box, 0] >= 0:
@@ -206,9 +236,8 @@ def expand(
     weights: RecordArray,
     goal_weights: RecordArray,
     batch: Nodes,
-    taken: int,
     first: int,
-    step: int,
+    behind: int,
     upper: float,
     slack: float,
     children: Nodes,
@@ -216,6 +245,7 @@ def expand(
     found: FloatArray,
     genes: IntArray,
     room: Room,
+    many: ManyRoom,
 ) -> None:
     """Enumerate nodes, or split them and bound their children.
 
@@ -225,23 +255,35 @@ def expand(
     weights, goal_weights : RecordArray
         ``(c,)`` of ``WEIGHTS``: the value, and the sum of the goals; no goals, no rows.
     batch : Nodes
-        Of these, ``first``, ``first + step``, ... below ``taken`` are expanded.
+        Of these, ``first`` up to ``behind`` are expanded.
     upper, slack : float
         Grasps at ``upper`` or above are of no use; nodes within ``slack`` of it are pruned.
     children, born : Nodes, IntArray
-        ``(m, k)`` children of each node, and how many there are.
+        ``(m, k)`` children of each node, and how many there are; a node that could not be dealt
+        with is its own child.
     found, genes : FloatArray, IntArray
         ``(m, k)`` values of grasps found, rising, ``upper`` where there is none; ``(m, k, n, 2)``
         their locations and kinds.
-    room : Room
+    room, many : Room, ManyRoom
     """
-    for i in range(first, taken, step):
+    for i in range(first, behind):
         w = weights[batch.choice[i]]
         n = w.cups + w.magnets
         boxes = batch.boxes[i]
         found[i] = upper
         born[i] = 0
         at = to_split(loc, w, boxes, n)
+        if many.halt[0]:
+            keep_node(batch, i, batch.bound[i], batch.tries[i], children, born)
+            continue
+        if w.trussed and MANY_MIN <= n <= MANY_MAX and (at < 0 or at > 1):
+            u = batch.u[i, 0]
+            bound = node_bound(loc, w, boxes, upper - slack, u, STEPS_OF_MANY, room)
+            if bound < upper - slack:
+                tries = batch.tries[i]
+                if not enumerate_many(loc, w, boxes, u, tries, found[i], genes[i], room, many):
+                    keep_node(batch, i, max(bound, batch.bound[i]), tries + 1, children, born)
+            continue
         if is_small(loc, w, boxes, n, at):
             budget = BUDGET if at >= 0 else np.iinfo(np.int64).max
             if enumerate_node(loc, w, boxes, batch.u[i, 0], budget, found[i], genes[i], room):
@@ -249,6 +291,7 @@ def expand(
         born[i] = split(loc, w, boxes, at, children.boxes[i])
         for c in range(born[i]):
             children.choice[i, c] = batch.choice[i]
+            children.tries[i, c] = 0
             children.u[i, c] = batch.u[i]
             child, u = children.boxes[i, c], children.u[i, c]
             bound = node_bound(loc, w, child, upper - slack, u[0], STEPS, room)
@@ -259,7 +302,18 @@ def expand(
                     children.bound[i, c] = np.inf
 
 
-@allocation_free
+@compiled
+def keep_node(
+    batch: Nodes, i: int, bound: float, tries: int, children: Nodes, born: IntArray
+) -> None:
+    """Make a node its own only child, to be looked at again."""
+    born[i] = 1
+    children.bound[i, 0], children.choice[i, 0] = bound, batch.choice[i]
+    children.u[i, 0], children.boxes[i, 0] = batch.u[i], batch.boxes[i]
+    children.tries[i, 0] = tries
+
+
+@inner
 def is_small(loc: Locations, w: Weights, boxes: IntArray, n: int, at: int) -> bool:
     """Tell whether it is worth trying to enumerate a node."""
     if w.trussed:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from grasp_xl.compiled import allocation_free
+from grasp_xl.compiled import inner
 from grasp_xl.rules import SLACK
 from grasp_xl.search.exact_bound import (
     Room,
@@ -24,6 +24,7 @@ from grasp_xl.search.exact_bound import (
     no_truss,
     price,
     shortest_truss,
+    squared_distance,
     truss_of,
 )
 from grasp_xl.search.exact_model import CUPS, MAGNETS, Locations
@@ -45,7 +46,7 @@ FIXED = 3
 """Column of ``Room.pull_so_far``: value without the moment; before it x, y, z of the pull (mm)."""
 
 
-@allocation_free
+@inner
 def true_value(loc: Locations, w: Weights, n: int, room: Room) -> float:
     """Return the value of the chosen grasp, infinite if it breaks a rule; as ``grasp.evaluate``."""
     longest = 0.0
@@ -85,15 +86,7 @@ def true_value(loc: Locations, w: Weights, n: int, room: Room) -> float:
     return value
 
 
-@allocation_free
-def squared_distance(loc: Locations, p: int, q: int) -> float:
-    """Return the squared plan-view distance of two locations (mm^2)."""
-    dx, dy = loc.xyz[p, 0] - loc.xyz[q, 0], loc.xyz[p, 1] - loc.xyz[q, 1]
-    squared: float = dx * dx + dy * dy
-    return squared
-
-
-@allocation_free
+@inner
 def keep(
     loc: Locations, w: Weights, n: int, found: FloatArray, genes: IntArray, room: Room
 ) -> None:
@@ -112,7 +105,7 @@ def keep(
         genes[slot, i, 0], genes[slot, i, 1] = room.chosen[i], room.chosen_kind[i]
 
 
-@allocation_free
+@inner
 def is_after(value: float, place: int, kind: int, price_: float, place_: int, kind_: int) -> bool:
     """Tell whether an entry stands behind another one in the order of the list."""
     if value != price_:
@@ -120,7 +113,7 @@ def is_after(value: float, place: int, kind: int, price_: float, place_: int, ki
     return place > place_ or (place == place_ and kind > kind_)
 
 
-@allocation_free
+@inner
 def list_entries(
     loc: Locations,
     w: Weights,
@@ -171,7 +164,7 @@ def list_entries(
     return n
 
 
-@allocation_free
+@inner
 def entry_price(loc: Locations, w: Weights, t: Truss, box: int, kind: int, u: FloatArray) -> float:
     """Return the price of an element of a kind at one location, infinite where it cannot stand."""
     if not loc.carries[box, kind] or (w.magnets if kind == MAGNETS else w.cups) == 0:
@@ -183,7 +176,7 @@ def entry_price(loc: Locations, w: Weights, t: Truss, box: int, kind: int, u: Fl
     return value
 
 
-@allocation_free
+@inner
 def try_last(
     loc: Locations,
     w: Weights,
@@ -238,7 +231,7 @@ def try_last(
             keep(loc, w, depth + 1, found, genes, room)
 
 
-@allocation_free
+@inner
 def stands_apart(loc: Locations, w: Weights, t: Truss, place: int, chosen: int, room: Room) -> bool:
     """Tell whether a location is far enough from the chosen ones, and within the truss's reach."""
     for i in range(chosen):
@@ -248,7 +241,7 @@ def stands_apart(loc: Locations, w: Weights, t: Truss, place: int, chosen: int, 
     return True
 
 
-@allocation_free
+@inner
 def prepare(
     loc: Locations,
     w: Weights,
@@ -296,7 +289,7 @@ def prepare(
     return groups
 
 
-@allocation_free
+@inner
 def lay_out(groups: int, room: Room) -> None:
     """Say of each depth which group its element belongs to, and which one of the group it is."""
     depth = 0
@@ -306,7 +299,7 @@ def lay_out(groups: int, room: Room) -> None:
             depth += 1
 
 
-@allocation_free
+@inner
 def least_total(depth: int, room: Room) -> float:
     """Return a bound of all grasps that go on with the entry at this depth, or a later one."""
     g, number = room.depth_group[depth, 0], room.depth_group[depth, 1]
@@ -319,7 +312,7 @@ def least_total(depth: int, room: Room) -> float:
     return total
 
 
-@allocation_free
+@inner
 def choose(loc: Locations, w: Weights, t: Truss, depth: int, entry: int, room: Room) -> None:
     """Choose an entry as the element at this depth."""
     place, kind = room.entry_place[entry], room.entry_kind[entry]
@@ -339,7 +332,7 @@ def choose(loc: Locations, w: Weights, t: Truss, depth: int, entry: int, room: R
     )
 
 
-@allocation_free
+@inner
 def enumerate_node(
     loc: Locations,
     w: Weights,

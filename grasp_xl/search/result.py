@@ -88,6 +88,8 @@ class State:
         Generation at which it was.
     earlier_designs : int
         Valid designs found before those in ``designs``, which a workbook no longer listed.
+    complete_from : int
+        Generation from which ``changes`` has all; a workbook may not have listed earlier ones.
     """
 
     generation: int
@@ -101,6 +103,7 @@ class State:
     best: Chromosome | None
     improved_at: int
     earlier_designs: int = 0
+    complete_from: int = 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import io
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from grasp_xl.chromosome import Chromosome
-from grasp_xl.errors import GraspError, InputError, Problem
-from grasp_xl.rules import moment_arm
+from grasp_xl.errors import InputError, Problem
 from grasp_xl.space import OptionSpace
-from grasp_xl.task import Parameters, settle
-from grasp_xl.workbook import layout
+from grasp_xl.task import Parameters
+from grasp_xl.workbook import layout, run_log
+from grasp_xl.workbook.carrying import carried, is_usable
 from grasp_xl.workbook.cells import Source, cells_of
-from grasp_xl.workbook.layout import Field
+from grasp_xl.workbook.designs_sheet import PICK_NAME
+from grasp_xl.workbook.inputs import genes_text
+from grasp_xl.workbook.layout import VALID_DESIGNS, Field
 from grasp_xl.workbook.reading import open_source, read_option_space
 from grasp_xl.workbook.reading_ga import (
     find_block,
@@ -24,10 +24,10 @@ from grasp_xl.workbook.reading_ga import (
     read_chromosome,
     read_parameters,
 )
+from grasp_xl.workbook.reading_pick import read_pick
 from grasp_xl.workbook.reading_run import (
     SavedRun,
     genes_as_they_stand,
-    logged_values,
     read_saved_run,
     shown_run,
 )
@@ -47,6 +47,8 @@ class Book:
         None also where the program assigned it.
     what_if : Chromosome or None
         Genes that the designer typed into the What-if card.
+    picked : Chromosome or None
+        Design that the designer picked from the list.
     """
 
     source: Source
@@ -54,6 +56,7 @@ class Book:
     parameters: Parameters
     user_chromosome: Chromosome | None
     what_if: Chromosome | None
+    picked: Chromosome | None
 
     @property
     def warnings(self) -> tuple[Problem, ...]:
@@ -111,6 +114,7 @@ def read_previous(path: Path) -> Book | None:
 def _book(source: Source, *, stale_genes: bool) -> Book:
     space = read_option_space(source)
     parameters = read_parameters(source)
+    picked = read_pick(source)
 
     def typed(block: Field) -> Chromosome | None:
         if stale_genes and find_block(source, block):
@@ -118,35 +122,38 @@ def _book(source: Source, *, stale_genes: bool) -> Book:
                 return Chromosome(genes_as_they_stand(source, block))
         return read_chromosome(source, space, block)
 
-    user = None if _is_assigned(source, space, parameters) else typed(layout.USER_BLOCK)
+    user = None if _is_assigned(source) else typed(layout.USER_BLOCK)
     what_if = typed(layout.WHAT_IF) if _is_typed(source, layout.WHAT_IF) else None
+    if picked:
+        picked, _ = carried(picked, space, space, VALID_DESIGNS)
+        if not (stale_genes or is_usable(picked, space)):
+            source.warn(
+                source.names[PICK_NAME].where,
+                "a design that the option space no longer has",
+                "one of its designs",
+                "the What-if card does not show it any longer; pick another",
+            )
+            picked = None
     source.finish()
-    return Book(source, space, parameters, user, what_if)
+    return Book(source, space, parameters, user, what_if, picked)
 
 
-def _is_assigned(source: Source, space: OptionSpace, parameters: Parameters) -> bool:
+def _is_assigned(source: Source) -> bool:
     """Tell whether the program chose the user-defined chromosome, and nobody typed over it."""
     area = find_block(source, layout.USER_BLOCK)
-    if area is None or min(area.row - 2, area.column - 1) < 0:
+    written = source.names.get(run_log.BENCHMARK_WRITTEN)
+    if area is None or written is None or min(area.row - 2, area.column - 1) < 0:
         return False
     if layout.ASSIGNED_MARK not in str(source.value(area.cell(-2, -1))):
         return False
-    logged = logged_values(source)
-    with suppress(KeyError, ValueError, TypeError, GraspError):
-        written = replace(
-            parameters,
-            fos=float(str(logged["FoS goal"])),
-            clearance_mm=float(str(logged["Minimum distance (mm)"])),
-            density_ratio=float(str(logged["Density ratio"])),
-            moment_arm=moment_arm(str(logged["Moment arm"])),
-        )
-        assigned = settle(space, written, None).benchmark.chromosome.genes
-        return np.array_equal(assigned, genes_as_they_stand(source, layout.USER_BLOCK))
+    with suppress(ValueError):
+        genes = Chromosome(genes_as_they_stand(source, layout.USER_BLOCK))
+        return genes_text(genes) == source.value(written)
     return False
 
 
 def _is_typed(source: Source, block: Field) -> bool:
-    """Tell whether any gene of a block is a plain value, and not a formula of ours."""
+    """Tell whether any gene of a block is somebody's, and not a formula of ours."""
     area = source.names.get(block.name)
     cells = [cell for row in cells_of(area) for cell in row] if area else []
-    return any(source.formula(cell) is None and not source.blank(cell) for cell in cells)
+    return any(cell not in source.worked_out and not source.blank(cell) for cell in cells)

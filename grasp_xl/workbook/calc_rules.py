@@ -9,11 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from grasp_xl.rules import DIVERGENCE, TERMS
-from grasp_xl.space import OptionSpace
+from grasp_xl.space import MAX_COUNT, OptionSpace
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import MAX_NUMBER
 from grasp_xl.workbook.layout import KINDS
-from grasp_xl.workbook.reading import MAX_COUNT
 
 SLACK = "1E-9"
 """Relative slack of a comparison, and the least number that counts as above 0."""

@@ -39,6 +39,7 @@ LABEL_ROWS = 500
 ERROR_VALUES = ("#N/A", "#REF!", "#DIV/0!", "#VALUE!", "#NAME?", "#NUM!", "#NULL!")
 
 _PLACE = re.compile(r".+!\$?[A-Z]{1,3}\$?[1-9]\d*(:\$?[A-Z]{1,3}\$?[1-9]\d*)?")
+_NUMBER = re.compile(r"(?<![A-Z0-9_.])\d+(\.\d+)?(E[+-]?\d+)?(?![A-Z0-9_.(])")
 _AS_FAR_AS_A_ROW_GOES = 0
 _MAX_DIGITS = 20  # of a whole number that a message shows
 
@@ -146,6 +147,8 @@ class Source:
     package: Package
     problems: list[Problem] = field(default_factory=list)
     warnings: list[Problem] = field(default_factory=list)
+    worked_out: dict[Area, Value] = field(default_factory=dict)
+    """Values of cells that hold formulas of ours; what is stored there does not matter."""
     _grids: dict[tuple[str, bool, int], Grid] = field(default_factory=dict)
 
     @cached_property
@@ -220,6 +223,8 @@ class Source:
 
     def value(self, cell: Area) -> Value:
         """Return the value of a cell."""
+        if cell in self.worked_out:
+            return self.worked_out[cell]
         return self.grid(cell.sheet).at(cell.row, cell.column)
 
     def complain(self, where: str, found: str, expected: str, hint: str) -> None:
@@ -326,6 +331,18 @@ def shown(number: float) -> str:
         digits = len(str(abs(number)))
         return str(number) if digits <= _MAX_DIGITS else f"a number of {digits} digits"
     return repr(number).removesuffix(".0")
+
+
+def same_formula(text: str | None) -> str:
+    """Fold what programs write in different ways; empty for no formula.
+
+    Examples
+    --------
+    >>> same_formula("=Sum( $A$1 , 'GA'!B2)"), same_formula("IF(A1<1E-9,TRUE(),2.50)")
+    ('SUM(A1,GA!B2)', 'IF(A1<1e-09,TRUE,2.5)')
+    """
+    plain = re.sub(r"[\s$']|(?<=TRUE)\(\)", "", (text or "").upper()).removeprefix("=")
+    return _NUMBER.sub(lambda number: f"{float(number[0]):.12g}", plain)
 
 
 def cells_of(area: Area) -> Iterator[Iterator[Area]]:

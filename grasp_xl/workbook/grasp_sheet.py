@@ -1,7 +1,8 @@
 """Sheet ``Grasp``: live plan views to scale (figures 12, 36, 41), drawn from points beside them.
 
-Elements are circles of their true diameter.  A point that is not there (no such element) is #N/A,
-which a chart leaves out, and which is written in the colour of its cell.
+Elements are filled circles of their true diameter: an outline, and under it rings drawn so thick
+that they cover the circle.  A point that is not there (no such element) is #N/A, which a chart
+leaves out, and which is written in the colour of its cell.
 """
 
 from __future__ import annotations
@@ -40,36 +41,36 @@ from grasp_xl.workbook.styles import (
     DARK_MAGENTA,
     GREEN,
     MAGENTA,
-    PALE_CYAN,
-    PALE_MAGENTA,
     RED,
     Style,
 )
 
-PLACE_COLOURS = (PALE_CYAN, PALE_MAGENTA)
-"""Pale, since LibreOffice draws places over the marks that fill elements; Excel, under them."""
-FILLS = (CYAN, MAGENTA)
-ELEMENT_COLOURS = (DARK_CYAN, DARK_MAGENTA)
+PLACE_COLOURS = ("#8CCFD8", "#E3A3C8")
+"""Pale cyan and magenta: where footprints lie dense, elements stand out by lightness as well."""
+FILL_COLOURS = (CYAN, MAGENTA)
+OUTLINE_COLOURS = (DARK_CYAN, DARK_MAGENTA)
 CORNERS = 36
 """Corners of a circle."""
-PLOT_WIDTH, PLOT_HEIGHT = 640, 460
+RINGS = ((1.0, 18), (0.25, 6))
+"""Radius, as part of the outer one's, and corners of the rings that fill a circle."""
+RING_WIDTH = 0.6
+"""Width of their lines, as part of the circle's radius: they overlap, and end at its outline."""
+EDGE = 2.0
+"""Width of an outline (points)."""
+POINTS_PER_PIXEL = 0.75
+PLOT_WIDTH, PLOT_HEIGHT = 600, 500
 """Most that the inner plot area of a picture takes (pixels)."""
-LEFT, TOP, BOTTOM, RIGHT = 70, 44, 136, 20
-"""Pixels around the plot area: for axis and title, and below for the legend's many lines too."""
-LEAST_WIDTH = 480
-"""Of a picture (pixels), for the legend's sake."""
-MARGIN = 0.02
-"""Free part of the extent on each side."""
-TICKS = 10
-"""Most intervals between labels of the longer axis; axes end at quarters of one."""
-ROUND_STEPS = (1.0, 2.0, 5.0, 10.0)
-POINTS = 0.75
-"""Points of a pixel."""
-LARGEST_MARKER = 72
-"""Points of Excel's largest marker: of still larger elements only the middle is filled."""
-COLUMN_WIDTH = 64
-"""Pixels of a column of the default width."""
-
+FRAME, LEGEND = 80, 50
+"""Pixels around the plot area for axes and titles, and below them for the legend's many lines."""
+LEAST_STEPS, MOST_STEPS = 6, 20
+"""Tick distances on the longer axis."""
+ROUND_STEPS = (1.0, 2.0, 2.5, 4.0, 5.0, 6.0, 8.0)
+LABEL_SIZE = 8
+"""Of the axes' labels (points): so that many stand side by side."""
+MARGIN = 0.01
+"""Free part of the extent on each side, beyond the elements and the part."""
+PICTURE_COLUMNS = 12
+"""Of the default width, from one picture to the next."""
 FIRST_POINT = 3
 NO_POINT = "#N/A"
 
@@ -87,6 +88,45 @@ class Picture:
 
 
 @dataclass(frozen=True, slots=True)
+class Frame:
+    """What a picture shows, and its scale: the same for both axes, exactly.
+
+    Parameters
+    ----------
+    low_mm, high_mm : tuple of float
+        Ends of the x and of the y axis.
+    step_mm : float
+        Distance of the tick marks.
+    pixels : tuple of int
+        Width and height of the inner plot area.
+    """
+
+    low_mm: tuple[float, float]
+    high_mm: tuple[float, float]
+    step_mm: float
+    pixels: tuple[int, int]
+
+    @property
+    def pixels_per_mm(self) -> float:
+        """The scale."""
+        return self.pixels[0] / (self.high_mm[0] - self.low_mm[0])
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the picture (pixels): a narrow part's has room for its legend."""
+        return PLOT_WIDTH + 2 * FRAME, self.pixels[1] + 2 * FRAME + LEGEND
+
+    @property
+    def rows(self) -> int:
+        """Rows of the sheet that the picture takes, with the one above it."""
+        return 3 + math.ceil(self.size[1] * POINTS_PER_PIXEL / ROW_HEIGHT)
+
+    def line_points(self, width_mm: float) -> float:
+        """Return a line's width, as a chart takes it: in quarters of a point, and no thinner."""
+        return math.ceil(width_mm * self.pixels_per_mm * POINTS_PER_PIXEL * 4) / 4
+
+
+@dataclass(frozen=True, slots=True)
 class Stroke:
     """A line of the picture: points and the formulas that give them; x and y of each."""
 
@@ -99,23 +139,25 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
     pen.write(0, 0, "GRASP: plan view to scale (mm), live with the What-if card", Style.TITLE)
     pen.write(0, GRASP_DATA_COLUMN, "Points that the pictures are drawn from", Style.NOTE)
     column = GRASP_DATA_COLUMN
-    turns = np.linspace(0.0, 2.0 * math.pi, CORNERS + 1)
     pen.row(2, column, ("cosine", "sine"), Style.HEADER)
-    for row, turn in enumerate(turns.tolist(), FIRST_POINT):
-        pen.row(row, column, (math.cos(turn), math.sin(turn)), Style.COORDINATE)
-    column += 3
-    frame = Frame.of(space)
-    columns = 1 + math.ceil(frame.width / COLUMN_WIDTH)
+    for row, unit in enumerate((*OUTLINE, *FILL), FIRST_POINT):
+        pen.row(row, column, unit, Style.COORDINATE)
+    frame = frame_of(space)
+    pen.write(2, column + 2, "inset of the filling", Style.HEADER)
+    for number in range(len(KINDS)):
+        cell = _inset_cell(number)
+        pen.write(cell.row, cell.column, _filling(space, number, frame)[1], Style.COORDINATE)
+    column += 4
     for number, picture in enumerate(pictures):
         chart = book.add_chart({"type": "scatter", "subtype": "straight"})
         _add_background(chart, space)
         column = _add_strokes(pen, chart, space, picture, column, frame)
-        frame.put_on(chart, picture.title)
-        pen.insert_chart(2, number * columns, chart)
+        _to_scale(chart, frame, picture.title)
+        pen.insert_chart(2, number * PICTURE_COLUMNS, chart)
     pen.hide_errors(Area(GRASP, FIRST_POINT, GRASP_DATA_COLUMN, CORNERS + 1, column))
     pen.fix_row_heights()
-    rows = 3 + math.ceil(frame.height * POINTS / ROW_HEIGHT)
-    pen.print_pages(pictures=[Area(GRASP, 0, 0, rows, len(pictures) * columns)])
+    page = Area(GRASP, 0, 0, frame.rows, len(pictures) * PICTURE_COLUMNS)
+    pen.print_pages(pictures=[page])
 
 
 def _series(name: str, x: Area, y: Area, look: dict[str, Any]) -> dict[str, Any]:
@@ -157,7 +199,7 @@ def _add_strokes(
     column: int,
     frame: Frame,
 ) -> int:
-    """Draw trusses, elements and centres; return the next free column."""
+    """Draw elements, trusses and centres; return the next free column."""
     unnamed = []
     for name, stroke, look in _strokes(space, picture, column, frame):
         pen.write(2, column, name or "(more)", Style.HEADER)
@@ -167,9 +209,10 @@ def _add_strokes(
             for axis in range(2):
                 pen.write(row, column + axis, point[axis], Style.COORDINATE, formulas[axis])
         x = Area(GRASP, FIRST_POINT, column, len(stroke.points))
-        chart.add_series(_series(name, x, Area(GRASP, x.row, column + 1, x.rows), look))
-        if not name:
-            unnamed.append(len(chart.series) - 1)
+        if look is not None:
+            chart.add_series(_series(name, x, Area(GRASP, x.row, column + 1, x.rows), look))
+            if not name:
+                unnamed.append(len(chart.series) - 1)
         column += 2
     chart.set_legend({"position": "bottom", "delete_series": unnamed})
     return column + 1
@@ -177,26 +220,23 @@ def _add_strokes(
 
 def _strokes(
     space: OptionSpace, picture: Picture, column: int, frame: Frame
-) -> Iterator[tuple[str, Stroke, dict[str, Any]]]:
+) -> Iterator[tuple[str, Stroke, dict[str, Any] | None]]:
     """Yield name, points and look, from the bottom up; only one of a group has a name."""
     block = picture.block
-    ends = Area(GRASP, FIRST_POINT, column, 2)
-    yield "Main truss", _main_truss(picture), _line(RED, 3.5)
-    rows = {kind: kind * block.slots for kind in range(len(KINDS))}
-    named = False
-    for row in range(block.size):
-        if space.kinds[row // block.slots].total:
-            yield "" if named else "Branch trusses", _branch(picture, row, ends), _line(RED, 1)
-            named = True
-    for number, kind in enumerate(space.kinds):
-        if kind.total:
-            look = _mark("circle", FILLS[number], frame.marker(_diameter(space, number)))
-            yield "", _middles(picture, number), look
-    for row in range(block.size):
+    rows = [row for row in range(block.size) if space.kinds[row // block.slots].total]
+    for row in rows:
         number = row // block.slots
-        if space.kinds[number].total:
-            name = KINDS[number].plural.capitalize() if row == rows[number] else ""
-            yield name, _circle(space, picture, row), _line(ELEMENT_COLOURS[number], 3)
+        look = _line(FILL_COLOURS[number], _filling(space, number, frame)[0])
+        yield "", _fill(space, picture, row, frame), look
+    ends = Area(GRASP, FIRST_POINT, column + 2 * len(rows), 2)
+    yield "Main truss", _main_truss(picture), _line(RED, 3.5)
+    for row in rows:
+        name = "Branch trusses" if row == rows[0] else ""
+        yield name, _branch(picture, row, ends), _line(RED, 1)
+    for row in rows:
+        number, first = divmod(row, block.slots)
+        name = "" if first else KINDS[number].plural.capitalize()
+        yield name, _outline(space, picture, row), _line(OUTLINE_COLOURS[number], EDGE)
     centroid = [(float(space.part.centroid_mm[0]), float(space.part.centroid_mm[1]))]
     yield "Centroid", Stroke([*centroid], [("CentroidX", "CentroidY")]), _mark("x", BLACK, 9)
     force = block.column("force (N)").reference
@@ -266,41 +306,65 @@ def _branch(picture: Picture, row: int, ends: Area) -> Stroke:
     return Stroke(points, formulas)
 
 
-def _diameter(space: OptionSpace, number: int) -> float:
+def _ring(corners: int, radius: float = 1.0) -> Iterator[Pair]:
+    """Yield the points of a closed circle about 0."""
+    for turn in np.linspace(0.0, 2.0 * math.pi, corners + 1).tolist():
+        yield radius * math.cos(turn), radius * math.sin(turn)
+
+
+OUTLINE = tuple(_ring(CORNERS))
+FILL = tuple(point for radius, corners in RINGS for point in _ring(corners, radius))
+
+
+def _diameter_mm(space: OptionSpace, number: int) -> float:
     return space.kinds[number].diameter_mm or DEFAULT_DIAMETERS_MM[number]
 
 
-def _middles(picture: Picture, number: int) -> Stroke:
-    """Return where the elements of a kind stand, for the marks that fill their circles."""
-    block, places = picture.block, _places(picture)
-    points: list[Pair] = []
-    formulas = []
-    for row in range(number * block.slots, (number + 1) * block.slots):
-        active, x, y = (block.element(name, row).reference for name in ("active", "x", "y"))
-        points.append(_pair(places[row]) if row in places else (NO_POINT, NO_POINT))
-        formulas.append((f"IF({active}=1,{x},NA())", f"IF({active}=1,{y},NA())"))
-    return Stroke(points, formulas)
+def _filling(space: OptionSpace, number: int, frame: Frame) -> tuple[float, float]:
+    """Return the width of the rings' line (points), and how far inside the edge it runs (mm)."""
+    width = frame.line_points(RING_WIDTH * _diameter_mm(space, number) / 2)
+    return width, (width + EDGE / 2) / 2 / POINTS_PER_PIXEL / frame.pixels_per_mm
 
 
-def _circle(space: OptionSpace, picture: Picture, row: int) -> Stroke:
-    """Draw an element at its true diameter."""
-    block, places = picture.block, _places(picture)
+def _inset_cell(number: int) -> Area:
+    """Return where a filling's inset stands: a formula with the number would not outlast a run."""
+    return Area(GRASP, FIRST_POINT + number, GRASP_DATA_COLUMN + 2)
+
+
+def _outline(space: OptionSpace, picture: Picture, row: int) -> Stroke:
+    """Draw the edge of an element at its true diameter."""
+    return _circle(space, picture, row, slice(0, len(OUTLINE)))
+
+
+def _fill(space: OptionSpace, picture: Picture, row: int, frame: Frame) -> Stroke:
+    """Fill an element up to its outline with rings.
+
+    Excel draws later series over earlier ones, LibreOffice the other way: neither covers another.
+    """
+    _, inset_mm = _filling(space, row // picture.block.slots, frame)
+    return _circle(space, picture, row, slice(len(OUTLINE), len(OUTLINE) + len(FILL)), inset_mm)
+
+
+def _circle(
+    space: OptionSpace, picture: Picture, row: int, units: slice, inset_mm: float = 0.0
+) -> Stroke:
+    """Draw circles about an element, so far inside its edge, from some of the unit points."""
+    block, here = picture.block, _places(picture).get(row)
     number = row // block.slots
-    labels, assumed = KINDS[number], DEFAULT_DIAMETERS_MM[number]
-    diameter = _diameter(space, number)
-    name = labels.diameter.name
+    name, assumed = KINDS[number].diameter.name, DEFAULT_DIAMETERS_MM[number]
+    radius_mm = max(0.0, _diameter_mm(space, number) / 2 - inset_mm)
     radius = f"IF(ISNUMBER({name}),{name},{assumed:g})/2"
+    if inset_mm:
+        radius = f"MAX(0,{radius}-{_inset_cell(number).absolute})"
     active = block.element("active", row).reference
     x, y = (block.element(axis, row).reference for axis in ("x", "y"))
     points: list[Pair] = []
     formulas = []
-    for corner in range(CORNERS + 1):
-        turn = 2.0 * math.pi * corner / CORNERS
-        unit = np.array([math.cos(turn), math.sin(turn)])
-        here = places.get(row)
-        points.append((NO_POINT, NO_POINT) if here is None else _pair(here + unit * diameter / 2))
+    for offset, unit in list(enumerate((*OUTLINE, *FILL)))[units]:
+        around = radius_mm * np.array(unit)
+        points.append((NO_POINT, NO_POINT) if here is None else _pair(here + around))
         cosine, sine = (
-            Area(GRASP, FIRST_POINT + corner, GRASP_DATA_COLUMN + axis).absolute
+            Area(GRASP, FIRST_POINT + offset, GRASP_DATA_COLUMN + axis).absolute
             for axis in range(2)
         )
         formulas.append(
@@ -312,91 +376,64 @@ def _circle(space: OptionSpace, picture: Picture, row: int) -> Stroke:
     return Stroke(points, formulas)
 
 
-@dataclass(frozen=True, slots=True)
-class Frame:
-    """What a picture shows, and its size: as many pixels a millimetre in x as in y.
-
-    Parameters
-    ----------
-    low_mm, high_mm : tuple of float
-        Ends of both axes.
-    tick_mm : float
-        Distance of labels.
-    scale : float
-        Pixels of a millimetre.
-    """
-
-    low_mm: tuple[float, float]
-    high_mm: tuple[float, float]
-    tick_mm: float
-    scale: float
-
-    @classmethod
-    def of(cls, space: OptionSpace) -> Frame:
-        """Return the smallest frame around all places, elements and polygons."""
-        points = [space.approximation_polygon_mm[:, :2], space.ideal_polygon_mm[:, :2]]
-        for number, kind in enumerate(space.kinds):
-            radius = _diameter(space, number) / 2
-            points += [kind.footprints_mm[:, :2] - radius, kind.footprints_mm[:, :2] + radius]
-        everything = np.vstack(points)
-        low, high = everything.min(axis=0), everything.max(axis=0)
-        free = MARGIN * float((high - low).max())
-        low, high = low - free, high + free
-        needed = float((high - low).max()) / TICKS
-        power = 10.0 ** math.floor(math.log10(needed))
-        tick = next(step * power for step in ROUND_STEPS if step * power >= needed)
-        step = tick / 4
-        low, high = np.floor(low / step) * step, np.ceil(high / step) * step
-        scale = float(min(np.array([PLOT_WIDTH, PLOT_HEIGHT]) / (high - low)))
-        (left, bottom), (right, top) = low.tolist(), high.tolist()
-        return cls((left, bottom), (right, top), tick, scale)
-
-    @property
-    def plot(self) -> tuple[float, float]:
-        """Width and height of the plot area (pixels)."""
-        (left, bottom), (right, top) = self.low_mm, self.high_mm
-        return self.scale * (right - left), self.scale * (top - bottom)
-
-    @property
-    def width(self) -> int:
-        """Of the whole picture (pixels)."""
-        return max(LEAST_WIDTH, math.ceil(LEFT + self.plot[0] + RIGHT))
-
-    @property
-    def height(self) -> int:
-        """Of the whole picture (pixels)."""
-        return math.ceil(TOP + self.plot[1] + BOTTOM)
-
-    def marker(self, diameter_mm: float) -> int:
-        """Return the size of a marker that fills a circle (points), within its line."""
-        return max(2, min(LARGEST_MARKER, int(self.scale * diameter_mm * POINTS)))
-
-    def put_on(self, chart: Any, title: str) -> None:  # noqa: ANN401 (untyped library)
-        """Give a chart this size, these axes, and its plot area within them."""
-        for number, set_axis in enumerate((chart.set_x_axis, chart.set_y_axis)):
-            set_axis(
-                {
-                    "name": "xy"[number] + " (mm)",
-                    "min": self.low_mm[number],
-                    "max": self.high_mm[number],
-                    "major_unit": self.tick_mm,
-                    "num_format": "0.###",
-                    "label_position": "low",
-                    "crossing": "min",
-                    "major_gridlines": {"visible": False},
-                }
-            )
-        width, height = self.plot
-        left = (self.width - width + LEFT - RIGHT) / 2
-        chart.set_size({"width": self.width, "height": self.height})
-        chart.set_plotarea(
+def _to_scale(chart: Any, frame: Frame, title: str) -> None:  # noqa: ANN401 (untyped library)
+    for number, set_axis in enumerate((chart.set_x_axis, chart.set_y_axis)):
+        set_axis(
             {
-                "layout": {
-                    "x": left / self.width,
-                    "y": TOP / self.height,
-                    "width": width / self.width,
-                    "height": height / self.height,
-                }
+                "name": "xy"[number] + " (mm)",
+                "min": frame.low_mm[number],
+                "max": frame.high_mm[number],
+                "major_unit": frame.step_mm,
+                "num_format": "0.###",
+                "num_font": {"size": LABEL_SIZE},
+                "label_position": "low",
+                "crossing": "min",
+                "major_gridlines": {"visible": False},
             }
         )
-        chart.set_title({"name": title, "name_font": {"size": 11}})
+    width, height = frame.size
+    chart.set_size({"width": width, "height": height})
+    chart.set_plotarea(
+        {
+            "layout": {
+                "x": (width - frame.pixels[0]) / 2 / width,
+                "y": FRAME / 2 / height,
+                "width": frame.pixels[0] / width,
+                "height": frame.pixels[1] / height,
+            }
+        }
+    )
+    chart.set_title({"name": title, "name_font": {"size": 11}})
+
+
+def frame_of(space: OptionSpace) -> Frame:
+    """Frame all elements at all places and both polygons, as large as the plot area takes.
+
+    The axes begin at a multiple of their tick distance, so that they are labelled by round
+    numbers, and end where the part or an element does.
+    """
+    corners = [space.approximation_polygon_mm[:, :2], space.ideal_polygon_mm[:, :2]]
+    for number, kind in enumerate(space.kinds):
+        radius = _diameter_mm(space, number) / 2
+        corners += [kind.footprints_mm[:, :2] + side for side in (-radius, radius)]
+    everything = np.vstack(corners)
+    low, high = everything.min(axis=0), everything.max(axis=0)
+    margin = MARGIN * float((high - low).max())
+    low, high = low - margin, high + margin
+    step = _step(low, high)
+    low = np.floor(low / step) * step
+    extent = (high - low).tolist()
+    scale = min(PLOT_WIDTH / extent[0], PLOT_HEIGHT / extent[1])
+    # Whole pixels, and with them the far ends, are rounded so that both axes keep the scale.
+    width, height = (math.ceil(length * scale - 1e-6) for length in extent)
+    ends = (float(low[0]) + width / scale, float(low[1]) + height / scale)
+    return Frame((float(low[0]), float(low[1])), ends, step, (width, height))
+
+
+def _step(low: FloatArray, high: FloatArray) -> float:
+    """Return the round tick distance whose multiples below the extent waste the least."""
+    longest = float((high - low).max())
+    power = 10.0 ** math.floor(math.log10(longest / MOST_STEPS))
+    steps = [step * power * more for step in ROUND_STEPS for more in (1.0, 10.0)]
+    usable = [step for step in steps if LEAST_STEPS <= longest / step <= MOST_STEPS]
+    return min(usable, key=lambda step: float(np.prod(high - np.floor(low / step) * step)))

@@ -72,12 +72,28 @@ def write_history(pen: Pen, book: Any, result: Result) -> None:  # noqa: ANN401 
 
 
 def _listed(result: Result) -> pd.DataFrame:
+    """Return the newest rows of the history, and those of the fittest of a reported generation."""
     history = result.history()
     if len(history) <= MAX_HISTORY:
         return history
-    reported = history["generation"].isin(result.report_generations())
-    newest = history.index >= len(history) - MAX_HISTORY + int(reported.sum())
-    return history[reported | newest]
+    generations, reported = history["generation"].to_numpy(), result.report_generations()
+    needed = np.searchsorted(generations, reported, side="right") - 1
+    newest = np.arange(_first_newest(result), len(history))
+    return history.iloc[np.union1d(needed, newest)]
+
+
+def _first_newest(result: Result) -> int:
+    """Return the row of the history from which on the sheet lists all."""
+    room = MAX_HISTORY - len(result.report_generations())
+    rows = len(result.history())
+    return rows - room if rows > MAX_HISTORY else 0
+
+
+def listed_from(result: Result) -> int:
+    """Return the generation from which the sheet lists every change."""
+    first = _first_newest(result)
+    generations = result.history()["generation"]
+    return max(result.state.complete_from, int(generations.iloc[first]) if first else 1)
 
 
 def _steps(pen: Pen, history: pd.DataFrame, left: int) -> Area:

@@ -158,15 +158,11 @@ def _details(pen: Pen, space: OptionSpace) -> None:
         pen.name_area(field.name, Area(OPTION_SPACE, row, layout.DETAIL_COLUMN + 1))
     assumed = [
         f"{size:g} mm {labels.plural}"
-        for labels, kind, size in zip(
-            layout.KINDS, space.kinds, layout.DEFAULT_DIAMETERS_MM, strict=True
-        )
-        if kind.diameter_mm is None
+        for labels, size in zip(layout.KINDS, layout.DEFAULT_DIAMETERS_MM, strict=True)
     ]
-    if assumed:
-        notes = ("Where a diameter is blank, pictures assume", f"{' and '.join(assumed)}.")
-        for row, note in enumerate(notes, len(rows)):
-            pen.write(row, layout.DETAIL_COLUMN, note, Style.NOTE)
+    notes = ("Where a diameter is blank, pictures assume", f"{' and '.join(assumed)}.")
+    for row, note in enumerate(notes, len(rows)):
+        pen.write(row, layout.DETAIL_COLUMN, note, Style.NOTE)
 
 
 def _kind_details(

@@ -290,8 +290,14 @@ def _failures_told(name: str, what: str = "workbook") -> Iterator[None]:
             cause = error.__cause__ or error  # openpyxl wraps a ValueError in one that says less
             if isinstance(cause, DefusedXmlException):
                 raise _document_type(name) from error
-            reason = (str(cause) or type(cause).__name__).splitlines()[0]
-            raise _damaged(name, f"a damaged {what} ({reason[:200]})") from error
+            raise _damaged(name, f"a damaged {what} ({_reason(cause)})") from error
+
+
+def _reason(error: BaseException) -> str:
+    """Return what a reader's exception says, unless it speaks of Python's types."""
+    if isinstance(error, TypeError | AttributeError):
+        return "a value that the file format does not have there"
+    return (str(error) or type(error).__name__).splitlines()[0][:200]
 
 
 def _document_type(name: str, part: str = "") -> InputError:
@@ -397,8 +403,8 @@ def _check_workbook(package: Package, archive: zipfile.ZipFile) -> None:
     if "mimetype" in parts and b"opendocument" in archive.read("mimetype"):
         hint = 'open it in LibreOffice, choose File > Save As and the type "Excel 2007-365 (.xlsx)"'
         raise _refusal(package.name, "an OpenDocument spreadsheet (.ods)", A_WORKBOOK, hint)
-    workbook = _workbook_part(package.name, archive) if ARC_CONTENT_TYPES in parts else None
-    if workbook is None:
+    workbook = workbook_part(package.name, archive) if ARC_CONTENT_TYPES in parts else ""
+    if not workbook:
         hint = "if the workbook is inside this archive, take it out and name that"
         raise _refusal(package.name, "a zip archive that is no workbook", A_WORKBOOK, hint)
     if workbook not in parts:
@@ -414,7 +420,8 @@ def _check_workbook(package: Package, archive: zipfile.ZipFile) -> None:
             raise _damaged(package.name, f"no part {relation.target!r}")
 
 
-def _workbook_part(name: str, archive: zipfile.ZipFile) -> str | None:
+def workbook_part(name: str, archive: zipfile.ZipFile) -> str:
+    """Return the name of the part that lists the sheets; empty if there is none."""
     types = archive.read(ARC_CONTENT_TYPES)
     if _XLSB_TYPE in types:
         raise _refusal(name, "a binary workbook (.xlsb)", A_WORKBOOK, SAVE_IN_EXCEL)
@@ -422,7 +429,7 @@ def _workbook_part(name: str, archive: zipfile.ZipFile) -> str | None:
         if entry.get("ContentType") in _WORKBOOK_TYPES:
             part_name = entry.get("PartName")  # a default for a file ending has none
             return part_name.removeprefix("/") if part_name else ARC_WORKBOOK
-    return None
+    return ""
 
 
 def _unreadable_cells(sheet: ReadOnlyWorksheet) -> list[Problem]:

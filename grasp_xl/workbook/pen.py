@@ -31,7 +31,9 @@ LibreOffice's columns are 6 percent wider: it does not round the width of a digi
 A4_ASPECT = 11.2 / 6.7
 """Width over height of an A4 page, the wider of the two, with a reserve of height."""
 LEAST_SCALE, MOST_SCALE = 60, 75
-"""Scales of printed pages (percent) that are legible: 9 points become 5.4 to 6.7."""
+"""Scales of printed pages (percent) that read well: 9 points become 5.4 to 6.7."""
+FIT_SCALE = 43
+"""Least scale at which a picture is kept whole."""
 EMU = 9525
 """English metric units of a pixel."""
 
@@ -206,8 +208,8 @@ class Pen:
     def print_pages(self, *lists: Area, pictures: Iterable[Area] = ()) -> None:
         """Print these areas, each from a new page on and one page wide, on A4 or Letter.
 
-        Where all of them are legible so, each is also one page tall.  Column widths must be set
-        before.
+        Where all of them are legible so, each is also one page tall.  The program that prints finds
+        the scale, for its own fonts.  Column widths must be set before.
 
         Parameters
         ----------
@@ -219,9 +221,10 @@ class Pen:
         pages = [*lists, *pictures]
         sizes = [self.sheet.pixels(page) for page in pages]
         scale = min(MOST_SCALE / 100, *(PAGE_WIDTH / width for width, _ in sizes))
-        whole = min(scale, *(PAGE_HEIGHT / height for _, height in sizes))
-        legible = 100 * whole >= LEAST_SCALE
-        tall = sum(math.ceil(scale * height / PAGE_HEIGHT) for _, height in sizes)
+        whole = [100 * min(scale, PAGE_HEIGHT / height) for _, height in sizes]
+        least = [LEAST_SCALE] * len(lists) + [FIT_SCALE] * (len(pages) - len(lists))
+        legible = all(fit >= bound for fit, bound in zip(whole, least, strict=True))
+        tall = max(math.ceil(scale * height / PAGE_HEIGHT) for _, height in sizes)
         self.sheet.fit_to_pages(1, 1 if legible else tall)
         self.sheet.print_area_range = ",".join(page.reference for page in pages)
         if lists and not legible:

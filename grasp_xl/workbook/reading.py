@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 from grasp_xl.errors import InputError, Problem
 from grasp_xl.polygon import contains, is_star_shaped
 from grasp_xl.space import (
+    MAX_COUNT,
     ElementKind,
     FloatArray,
     OptionSpace,
@@ -35,9 +37,6 @@ from grasp_xl.workbook.package import read_package
 
 MAX_FOOTPRINTS = 200_000
 """Footprints of one kind that are read."""
-
-MAX_COUNT = 25
-"""Largest # Max. of a kind; the helper cells of a live card grow with its square."""
 
 MAX_VERTICES = 10_000
 """Vertices of the polygon that are read."""
@@ -419,13 +418,11 @@ def _polygon(source: Source, sheet: str, part: Part | None) -> tuple[FloatArray,
         header = " ".join(layout.POLYGON_HEADER)
         _miss(source, usual, f"the header {header!r} of the ideal polygon, in four cells")
         return None
-    typed = source.names.get(layout.APPROXIMATION_POLYGON)
-    if typed is None or not _all_formulas(source, ideal):
-        typed = ideal
-    polygon = _vertices(source, typed)
+    approximation = None if _is_typed(source, ideal) else _approximation_area(source, sheet)
+    polygon = _vertices(source, approximation or ideal)
     if polygon is None or scale is None or part is None:
         return None
-    if typed is ideal:
+    if approximation is None:
         polygon = unscaled_polygon(polygon, part.centroid_mm, scale)
     return polygon, scale
 
@@ -443,28 +440,55 @@ def _ideal_area(source: Source, sheet: str) -> Area | None:
     """Find the ideal polygon's x, y, z cells: by name, else below the header i, x, y, z."""
     named = source.names.get(layout.IDEAL_POLYGON)
     if named and named.columns == 3:
-        return named
+        return _corners(source, named)
     grid = source.grid(sheet)
     for header in grid.places(layout.POLYGON_HEADER[0]):
         titles = [str(grid.at(header.row, header.column + n)) for n in range(4)]
         if tuple(map(normal, titles)) == layout.POLYGON_HEADER:
-            first = header.cell(1, 0)
-            rows = 0
-            while _is_vertex(grid, first.cell(rows, 0)):
-                rows += 1
-            return Area(sheet, first.row, first.column + 1, rows, 3)
+            return _corners(source, Area(sheet, header.row + 1, header.column + 1, 0, 3))
     return None
 
 
+def _approximation_area(source: Source, sheet: str) -> Area | None:
+    """Find the x, y, z cells of the polygon before scaling: by name, else below its label."""
+    named = source.names.get(layout.APPROXIMATION_POLYGON)
+    if named and named.columns == 3:
+        return _corners(source, named)
+    label = source.grid(sheet).find(layout.APPROXIMATION_LABEL)
+    if label is None:
+        return None
+    return _corners(source, Area(sheet, label.row + 2, label.column + 1, 0, 3))
+
+
+def _corners(source: Source, area: Area) -> Area:
+    """Return the corners of a polygon, which may have grown or shrunk below its name's area."""
+    if area.rows > MAX_VERTICES:  # a name of whole columns, say: refused as it is
+        return area
+    grid = source.grid(area.sheet)
+    rows = 0
+    while _is_vertex(grid, area.cell(rows, 0)):
+        rows += 1
+    gaps = [row for row in range(rows, area.rows) if _is_vertex(grid, area.cell(row, 0))]
+    return replace(area, rows=1 + gaps[-1] if gaps else rows)
+
+
 def _is_vertex(grid: Grid, cell: Area) -> bool:
-    values = [grid.at(cell.row, cell.column + n) for n in range(4)]
+    """Tell whether there is anything in a row of a polygon: in x, y, z or the index before it."""
+    values = [grid.at(cell.row, cell.column + n) for n in (-1, 0, 1, 2) if cell.column + n >= 0]
     is_centroid = isinstance(values[0], str) and normal(values[0]) == normal(layout.CENTROID_LABEL)
     return not is_centroid and not all(is_blank(value) for value in values)
 
 
-def _all_formulas(source: Source, area: Area) -> bool:
-    """Tell whether the ideal polygon is ours, calculated from the approximation polygon."""
-    return all(source.formula(cell) is not None for row in cells_of(area) for cell in row)
+def _is_typed(source: Source, ideal: Area) -> bool:
+    """Tell whether any cell of the ideal polygon is a value, and not a formula of ours.
+
+    Blank cells are formulas that a program lost when it saved.
+    """
+    return any(
+        source.formula(cell) is None and not source.blank(cell)
+        for row in cells_of(ideal)
+        for cell in row
+    )
 
 
 def _vertices(source: Source, area: Area) -> FloatArray | None:

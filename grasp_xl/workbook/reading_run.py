@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-import math
-from contextlib import suppress
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,19 +16,40 @@ from grasp_xl.search.result import State, Trace, gene_columns, load_stream
 from grasp_xl.space import IntArray, OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout, run_log
-from grasp_xl.workbook.cells import Source, Value, shown
+from grasp_xl.workbook.calc_sheet import CalcBlock
+from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank
 from grasp_xl.workbook.history_sheet import MAX_HISTORY
+from grasp_xl.workbook.inputs import changed_inputs
 from grasp_xl.workbook.layout import Area, Field
 from grasp_xl.workbook.reading_ga import find_block
 
-INPUTS_HASH = "Hash of the inputs used"
-GENERATIONS = "Generations asked for"
 DESIGNS_LISTED = "Valid designs listed"
 CHANGES_LISTED = "Changes listed in the history"
 """Labels of the run log."""
 
+GENERATION = "Generation"
+"""Header of the lists' column that says when."""
+
+LISTS = {layout.VALID_DESIGNS: layout.TABLE_ROW, layout.HISTORY: layout.HISTORY_ROW}
+"""Sheets of the lists with genes, and their header rows."""
+
 UNREADABLE = (ValueError, TypeError, IndexError, KeyError, OverflowError, RecursionError)
 """What reading a run raises where somebody changed it."""
+
+
+class EditedError(ValueError):
+    """What no run has written, in words for a person."""
+
+
+@contextmanager
+def _reading(part: str) -> Iterator[None]:
+    """Name the part of a workbook that cannot be read."""
+    try:
+        yield
+    except EditedError as error:
+        raise EditedError(f"{part}: {error}") from error
+    except UNREADABLE as error:
+        raise EditedError(f"{part} cannot be read") from error
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -62,28 +84,13 @@ def refuse_other_inputs(source: Source, task: Task) -> None:
     Raises
     ------
     InputError
-        Naming the parameters that differ.
+        Naming the inputs that differ.
     """
     logged = logged_values(source)
-    if logged and logged.get(INPUTS_HASH) != task.inputs_hash:
-        now = (("Seed", task.settings.seed), *run_log.parameter_rows(task))
-        told = [
-            f"{label} {_told(value)}, not {_told(logged.get(label))}"
-            for label, value in now
-            if label != GENERATIONS and not _alike(value, logged.get(label))
-        ]
-        found = f"inputs that changed since its run: {'; '.join(told) or 'the option space'}"
+    changed = changed_inputs(task, logged) if logged else []
+    if changed:
+        found = f"inputs that changed since its run: {'; '.join(changed)}"
         raise _no_run(source, found, "undo the changes, or run it without --continue")
-
-
-def _told(value: Value) -> str:
-    return shown(value) if isinstance(value, int | float) else str(value)
-
-
-def _alike(value: Value, logged: Value) -> bool:
-    if isinstance(value, float) and isinstance(logged, int | float):
-        return math.isclose(value, logged, rel_tol=1e-12)
-    return value == logged
 
 
 def read_saved_run(source: Source, space: OptionSpace) -> SavedRun:
@@ -101,7 +108,8 @@ def read_saved_run(source: Source, space: OptionSpace) -> SavedRun:
         saved = _saved_run(source, space, logged)
         _check(saved.state, logged)
     except UNREADABLE as error:
-        found = f"a run log, history or list of designs that was edited ({error})"
+        told = f" ({error})" if isinstance(error, EditedError) else ""
+        found = f"a run log, history or list of designs that was edited{told}"
         raise _no_run(source, found, "run it without --continue") from error
     return saved
 
@@ -123,8 +131,41 @@ def genes_as_they_stand(source: Source, block: Field) -> IntArray:
     """
     area = find_block(source, block)
     if area is None:
-        raise ValueError(f"no block {block.label!r}")
+        raise EditedError(f"no block {block.label!r}")
+    cells = (cell for row in cells_of(area) for cell in row)
+    if any(is_blank(source.value(cell)) and not source.blank(cell) for cell in cells):
+        raise EditedError("a formula without a stored value")
     return _genes(source, area)
+
+
+def largest_listed(source: Source, kind: str) -> int:
+    """Return the largest index of a kind among the genes of the lists, also one that is gone."""
+    found = [0]
+    for sheet, header_row in LISTS.items():
+        rows = source.grid(sheet).rows if sheet in source.sheets else {}
+        genes = re.compile(rf"{kind[0].upper()}\d+")
+        for column, label in enumerate(rows.get(header_row, ())):
+            if genes.fullmatch(str(label)):
+                cells = [row[column] for row in rows.values() if column < len(row)]
+                found += [int(cell) for cell in cells if isinstance(cell, int | float)]
+    return max(found)
+
+
+def written_children(source: Source, space: OptionSpace) -> tuple[Chromosome, ...]:
+    """Return the children as we wrote them, though somebody may have typed over their cards.
+
+    There are none of them where the helper sheet is not as it was.
+    """
+    with suppress(*UNREADABLE):
+        blocks = [CalcBlock(1 + n, space.gene_slots, area) for n, area in enumerate(_cards(source))]
+        return tuple(_checked(space, _genes(source, block.engine_genes)) for block in blocks)
+    return ()
+
+
+def _cards(source: Source) -> list[Area]:
+    """Return the genes of the child cards."""
+    names = [f"Child{number}" for number in range(1, 1 + len(source.names))]
+    return [source.names[name] for name in names if name in source.names]
 
 
 def _no_run(source: Source, found: str, hint: str) -> InputError:
@@ -133,37 +174,41 @@ def _no_run(source: Source, found: str, hint: str) -> InputError:
 
 
 def _saved_run(source: Source, space: OptionSpace, logged: dict[str, Value]) -> SavedRun:
-    children = [
-        source.names[name]
-        for number in range(1, 1 + len(source.names))
-        if (name := f"Child{number}") in source.names
-    ]
     return SavedRun(
         state=_state(source, space, logged),
         matrix=genes_as_they_stand(source, layout.MATRIX_BLOCK),
-        children=tuple(_checked(space, _genes(source, area)) for area in children),
+        children=tuple(_checked(space, _genes(source, area)) for area in _cards(source)),
     )
 
 
 def _state(source: Source, space: OptionSpace, logged: dict[str, Value]) -> State:
-    def named(name: str) -> Value:
-        return source.value(source.names[name])
+    def cell(name: str) -> Area:
+        if name not in source.names:
+            raise EditedError(f"the name {name} is missing")
+        return source.names[name]
 
-    random_state, best_text = str(named(run_log.RANDOM_STATE)), named(run_log.BEST_GRASP)
-    load_stream(random_state)
-    best = _checked(space, np.array(json.loads(str(best_text)))) if best_text else None
+    def number(name: str) -> int:
+        with _reading(cell(name).where):
+            return whole(source.value(cell(name)))
+
+    random_state = str(source.value(cell(run_log.RANDOM_STATE)))
+    with _reading(cell(run_log.RANDOM_STATE).where):
+        load_stream(random_state)
+    best_text = source.value(cell(run_log.BEST_GRASP))
+    with _reading(cell(run_log.BEST_GRASP).where):
+        best = _checked(space, np.array(json.loads(str(best_text)))) if best_text else None
     listed = logged[CHANGES_LISTED]
     changes = _trace(source, space, layout.HISTORY, layout.HISTORY_ROW, listed)
-    if _whole(listed) >= MAX_HISTORY:
+    if whole(listed) >= MAX_HISTORY:
         changes = _without_repeat(changes)
-    generation = _whole(named(run_log.GENERATIONS_DONE))
+    generation = number(run_log.GENERATIONS_DONE)
     if generation and not len(changes):
-        raise ValueError("an empty history")
+        raise EditedError("an empty history")
     designs = _trace(source, space, layout.VALID_DESIGNS, layout.TABLE_ROW, logged[DESIGNS_LISTED])
     parent = _checked(space, genes_as_they_stand(source, layout.PARENT_BLOCK))
     return State(
         generation=generation,
-        evaluations=_whole(named(run_log.EVALUATIONS)),
+        evaluations=number(run_log.EVALUATIONS),
         parent=parent,
         random_state=random_state,
         random_chromosome=_checked(space, genes_as_they_stand(source, layout.RANDOM_BLOCK)),
@@ -171,8 +216,9 @@ def _state(source: Source, space: OptionSpace, logged: dict[str, Value]) -> Stat
         changes=changes,
         designs=designs,
         best=best,
-        improved_at=_whole(named(run_log.BEST_FOUND_AT)) if best else 0,
-        earlier_designs=_whole(named(run_log.DESIGNS_FOUND)) - len(designs),
+        improved_at=number(run_log.BEST_FOUND_AT) if best else 0,
+        earlier_designs=number(run_log.DESIGNS_FOUND) - len(designs),
+        complete_from=number(run_log.HISTORY_FROM),
     )
 
 
@@ -188,9 +234,9 @@ def _check(state: State, logged: dict[str, Value]) -> None:
 
     A history that was too long for its sheet has gaps.
     """
-    changes, parent = state.changes, state.parent.genes
+    changes, parent, generation = state.changes, state.parent.genes, state.generation
     n = len(changes)
-    gaps = _whole(logged[CHANGES_LISTED]) >= MAX_HISTORY
+    gaps = state.complete_from > 1
     repeated = state.best and n > 1 and np.array_equal(changes.genes[-2], parent)
     faults = {
         "a row of the designs is missing": len(state.designs) != logged[DESIGNS_LISTED],
@@ -200,56 +246,88 @@ def _check(state: State, logged: dict[str, Value]) -> None:
         "a list was sorted": any(
             (np.diff(trace.generation) <= 0).any() for trace in (changes, state.designs)
         ),
+        "a list goes beyond the generations done": any(
+            len(trace) and not 1 <= trace.generation[0] <= trace.generation[-1] <= generation
+            for trace in (changes, state.designs)
+        ),
+        "other generations than a run can have": not 0 <= generation <= layout.MAX_GENERATIONS,
+        "more evaluations than children, or less than none": not (
+            0 <= state.evaluations <= generation * layout.MAX_CHILDREN
+        ),
+        "a best grasp of a generation that was not done": not (
+            0 <= state.improved_at <= generation
+        ),
+        "a history from a generation that it does not have": not (
+            state.complete_from == 1 or state.complete_from in changes.generation
+        ),
+        "less valid designs found than listed": state.earlier_designs < 0,
     }
     for fault, found in faults.items():
         if found:
-            raise ValueError(fault)
+            raise EditedError(fault)
 
 
-def _whole(value: Value) -> int:
+def whole(value: Value) -> int:
+    """Return a cell's value as a whole number.
+
+    Raises
+    ------
+    ValueError
+        If it is none.
+    """
     if isinstance(value, bool) or not isinstance(value, int | float) or value != int(value):
-        raise ValueError(f"{value!r} is no whole number")
+        found = "an empty cell" if value is None else repr(value)
+        raise EditedError(f"{found} is no whole number")
     return int(value)
 
 
 def _gene(value: Value) -> int:
-    return BLANK_GENE if value is None else _whole(value)
+    return BLANK_GENE if value is None else whole(value)
 
 
 def _genes(source: Source, area: Area) -> IntArray:
-    return np.array(
-        [
-            [_gene(source.value(area.cell(row, column))) for column in range(area.columns)]
-            for row in range(area.rows)
-        ]
-    )
+    with _reading(area.where):
+        rows = [[_gene(source.value(cell)) for cell in row] for row in cells_of(area)]
+    return np.array(rows)
 
 
 def _checked(space: OptionSpace, genes: IntArray) -> Chromosome:
     """Make a chromosome, sure that the option space has all its genes: the kernels trust it."""
     shape = (len(space.kinds), 1 + space.gene_slots)
     if genes.shape != shape:
-        raise ValueError(f"genes of shape {genes.shape}, not {shape}")
-    for row, kind in zip(genes, space.kinds, strict=True):
-        low = 1 if kind.total else BLANK_GENE
-        if not (0 <= row[0] <= kind.most and ((low <= row[1:]) & (row[1:] <= kind.total)).all()):
-            raise ValueError(f"{kind.name} genes {row.tolist()} out of range")
+        raise EditedError(f"a grasp of other genes than {shape[0]} rows of {shape[1]}")
+    _check_genes(space, genes[None])
     return Chromosome(genes)
+
+
+def _check_genes(space: OptionSpace, grasps: IntArray) -> None:
+    """Check the genes of many grasps, ``(n, kinds, 1 + slots)``."""
+    for number, kind in enumerate(space.kinds):
+        counts, indices = grasps[:, number, 0], grasps[:, number, 1:]
+        low = 1 if kind.total else BLANK_GENE
+        usable = (counts >= 0) & (counts <= kind.most)
+        usable &= ((indices >= low) & (indices <= kind.total)).all(axis=1)
+        if not usable.all():
+            genes = grasps[int(np.argmin(usable)), number].tolist()
+            raise EditedError(f"{kind.name} genes {genes} out of range")
 
 
 def _trace(source: Source, space: OptionSpace, sheet: str, header_row: int, listed: Value) -> Trace:
     """Read generations and genes from a table; its gene columns are found by their labels."""
-    grid = source.grid(sheet)
-    header = [str(value) for value in grid.rows[header_row]]
-    names = {labels.kind: labels.row_label for labels in layout.KINDS}
-    columns = [header.index(names.get(name, name)) for name in gene_columns(space)]
-    generations, genes = [], []
-    for row in range(header_row + 1, header_row + 1 + _whole(listed)):
-        if grid.at(row, 0) is not None:
-            generations.append(_whole(grid.at(row, 0)))
-            genes.append([_gene(grid.at(row, column)) for column in columns])
-    shape = (len(genes), len(space.kinds), 1 + space.gene_slots)
-    chromosomes = np.array(genes, dtype=np.int64).reshape(shape)
-    for chromosome in chromosomes:
-        _checked(space, chromosome)
-    return Trace(np.array(generations, dtype=np.int64), chromosomes)
+    if sheet not in source.sheets:
+        raise EditedError(f"there is no sheet {sheet!r}")
+    with _reading(f"sheet {sheet!r}"):
+        grid = source.grid(sheet)
+        header = [str(value) for value in grid.rows[header_row]]
+        names = {labels.kind: labels.row_label for labels in layout.KINDS}
+        columns = [header.index(names.get(name, name)) for name in gene_columns(space)]
+        when = header.index(GENERATION)
+        generations, genes = [], []
+        for row in range(header_row + 1, header_row + 1 + whole(listed)):
+            if grid.at(row, when) is not None:
+                generations.append(whole(grid.at(row, when)))
+                genes.append([_gene(grid.at(row, column)) for column in columns])
+        shape = (len(genes), len(space.kinds), 1 + space.gene_slots)
+        chromosomes = np.array(genes, dtype=np.int64).reshape(shape)
+        _check_genes(space, chromosomes)
+        return Trace(np.array(generations, dtype=np.int64), chromosomes)

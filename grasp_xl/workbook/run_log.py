@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass
 from datetime import datetime
@@ -12,7 +11,14 @@ from grasp_xl.chromosome import Chromosome
 from grasp_xl.search.result import Result
 from grasp_xl.task import Task
 from grasp_xl.workbook.designs_sheet import MAX_DESIGNS
-from grasp_xl.workbook.history_sheet import MAX_HISTORY
+from grasp_xl.workbook.history_sheet import MAX_HISTORY, listed_from
+from grasp_xl.workbook.inputs import (
+    BENCHMARK_GENES,
+    genes_text,
+    inputs_hash,
+    parameter_rows,
+    space_rows,
+)
 from grasp_xl.workbook.layout import RUN_LOG, Area
 from grasp_xl.workbook.pen import ROW_HEIGHT, CellValue, Pen
 from grasp_xl.workbook.styles import Style
@@ -25,8 +31,12 @@ BEST_GRASP = "BestGrasp"
 BEST_FOUND_AT = "BestFoundAt"
 STOP_REASON = "StopReason"
 DESIGNS_FOUND = "ValidDesignsFound"
+HISTORY_FROM = "HistoryFrom"
 WHAT_IF_WRITTEN = "WhatIfWritten"
-"""What-if genes as we wrote them, by which a designer's typing is told apart."""
+"""Genes that our formulas on the What-if card show while no design is picked."""
+
+BENCHMARK_WRITTEN = "BenchmarkWritten"
+"""The benchmark's genes as we wrote them, by which typing over an assigned one is told apart."""
 
 VALUE_WIDTH = 90
 """Width of the column of values: at least as many characters to a line."""
@@ -42,11 +52,6 @@ class Origin:
     ended: datetime
 
 
-def genes_text(chromosome: Chromosome | None) -> str:
-    """Return genes as one line of text, empty for none."""
-    return json.dumps(chromosome.genes.tolist()) if chromosome else ""
-
-
 def write_run_log(
     pen: Pen, task: Task, result: Result, origin: Origin, what_if: Chromosome
 ) -> None:
@@ -57,7 +62,7 @@ def write_run_log(
         ("Program", f"grasp_xl {__version__}", ""),
         ("Input file", origin.name, ""),
         ("Input SHA-256", origin.sha256, ""),
-        ("Hash of the inputs used", task.inputs_hash, INPUTS_HASH),
+        ("Hash of the inputs used", inputs_hash(task), INPUTS_HASH),
         ("Started", origin.started, ""),
         ("Ended", origin.ended, ""),
         ("Seconds of search", round(result.seconds, 3), ""),
@@ -70,9 +75,11 @@ def write_run_log(
         ("Best found at generation", state.improved_at if best else None, BEST_FOUND_AT),
         ("Best grasp (genes)", genes_text(state.best), BEST_GRASP),
         ("What-if card as written (genes)", genes_text(what_if), WHAT_IF_WRITTEN),
+        (BENCHMARK_GENES, genes_text(task.benchmark.chromosome), BENCHMARK_WRITTEN),
         ("Valid designs found", state.earlier_designs + len(state.designs), DESIGNS_FOUND),
         ("Valid designs listed", min(len(state.designs), MAX_DESIGNS), ""),
         ("Changes listed in the history", min(len(state.changes), MAX_HISTORY), ""),
+        ("History lists all from generation", listed_from(result), HISTORY_FROM),
         ("State of the random stream", state.random_state, RANDOM_STATE),
         ("Exact bound", None, ""),
         ("Exact gap", None, ""),
@@ -89,12 +96,20 @@ def write_run_log(
             pen.name_area(name, Area(RUN_LOG, row, 1))
     row = len(rows) + 3
     pen.write(row, 0, "Parameters", Style.HEADING)
-    for label, value in parameter_rows(task):
-        row += 1
+    row = _write_inputs(pen, row + 1, parameter_rows(task)) + 1
+    pen.write(row, 0, "Option space (lists: hashes)", Style.HEADING)
+    row = _write_inputs(pen, row + 1, space_rows(task.space))
+    pen.widths(0, 32, VALUE_WIDTH)
+    pen.print_pages(pictures=[Area(RUN_LOG, 0, 0, row, 2)])
+
+
+def _write_inputs(pen: Pen, row: int, inputs: dict[str, CellValue]) -> int:
+    """Write labels and values from a row on, and return the row behind them."""
+    for label, value in inputs.items():
         pen.write(row, 0, label, Style.LABEL)
         _write_value(pen, row, value)
-    pen.widths(0, 32, VALUE_WIDTH)
-    pen.print_pages(pictures=[Area(RUN_LOG, 0, 0, row + 1, 2)])
+        row += 1
+    return row
 
 
 def _write_value(pen: Pen, row: int, value: CellValue) -> None:
@@ -103,23 +118,3 @@ def _write_value(pen: Pen, row: int, value: CellValue) -> None:
     lines = math.ceil(len(str(value)) / VALUE_WIDTH)
     if lines > 1:  # and one more, since lines break at spaces
         pen.sheet.set_row(row, (1 + lines) * ROW_HEIGHT)
-
-
-def parameter_rows(task: Task) -> list[tuple[str, CellValue]]:
-    """Return the settled parameters, as label and value."""
-    need, goals = task.rules.requirements, task.rules.goals
-    return [
-        ("User-defined start", int(task.settings.user_start)),
-        ("Benchmark", "program-assigned" if task.assigned else "user-defined"),
-        ("Elitism", int(task.settings.elitism)),
-        ("1-in-n mutation", task.settings.one_in),
-        ("Children per generation", task.settings.children),
-        ("Generations asked for", task.generations),
-        ("FoS goal", need.fos),
-        ("Minimum distance (mm)", need.clearance_mm),
-        ("Density ratio", need.density_ratio),
-        ("Moment arm", need.moment_arm),
-        ("Criterion", task.rules.criterion.name),
-        *((f"Goal: {term}", value) for term, value in goals.base._asdict().items()),
-        ("Terms left out", ", ".join(sorted(goals.dropped)) or "none"),
-    ]

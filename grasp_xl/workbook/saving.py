@@ -1,32 +1,17 @@
-"""Putting a workbook in its place: whole or not at all, and nothing of the designer's lost."""
+"""Putting a workbook in its place: whole or not at all."""
 
 from __future__ import annotations
 
 import errno
-import io
 import os
-import re
 import tempfile
-import zipfile
-from collections.abc import Iterator
 from pathlib import Path
 
 from grasp_xl.errors import OutputError, UsageError
-from grasp_xl.workbook import layout
-from grasp_xl.workbook.cells import Source, cells_of, is_blank
-from grasp_xl.workbook.layout import Area, place
-from grasp_xl.workbook.package import Package
-from grasp_xl.workbook.reading import find_sheet
 from grasp_xl.workbook.stamp import is_untouched
-from grasp_xl.workbook.writing import Filled
-
-MAX_NAMED = 10
-"""Lost cells of a sheet that a message names."""
 
 LOCK_FILES = ("~${name}", ".~lock.{name}#")
 """Files that Excel and LibreOffice keep beside a workbook that they hold open."""
-
-ANOTHER_FILE = "Name another file with -o"
 
 REASONS = {
     errno.ENOSPC: ("the disk is full", "free some space, or write to another disk"),
@@ -40,8 +25,18 @@ REASONS = {
 # --- may it be written ---
 
 
-def check_place(target: Path, suffix: str, *, force: bool) -> None:
+def check_place(target: Path, suffix: str, *, force: bool, option: str = "-o") -> None:
     """Refuse a place where no file could be put in the end, before any work is done.
+
+    Parameters
+    ----------
+    target : Path
+    suffix : str
+        What its name must end in.
+    force : bool
+        Put it there though another program holds it open.
+    option : str
+        Which option names it.
 
     Raises
     ------
@@ -51,7 +46,7 @@ def check_place(target: Path, suffix: str, *, force: bool) -> None:
         If the folder is missing or read-only, or the file is held open or no file at all.
     """
     try:
-        _refuse_place(target)
+        _refuse_place(target, option)
         for pattern in () if force else LOCK_FILES:
             lock = target.with_name(pattern.replace("{name}", target.name))
             if lock.exists():
@@ -70,7 +65,7 @@ def check_place(target: Path, suffix: str, *, force: bool) -> None:
         )
 
 
-def _refuse_place(target: Path) -> None:
+def _refuse_place(target: Path, option: str) -> None:
     folder = target.resolve().parent
     if not folder.is_dir():
         raise OutputError(
@@ -81,7 +76,9 @@ def _refuse_place(target: Path) -> None:
     if target.exists() and not target.is_file():
         what = "a folder" if target.is_dir() else "no file"
         raise OutputError(
-            f"{target} is {what}, so nothing was written.", where=str(target), hint=ANOTHER_FILE
+            f"{target} is {what}, so nothing was written.",
+            where=str(target),
+            hint=f"Name another file with {option}",
         )
     if not os.access(folder, os.W_OK):
         raise OSError(errno.EROFS, "")
@@ -102,7 +99,7 @@ def check_target(target: Path, source: Path, *, in_place: bool, force: bool) -> 
         raise UsageError(
             f"The output {target} is the input.",
             where=str(target),
-            hint=f"{ANOTHER_FILE}; only run replaces its input, with --in-place",
+            hint="Name another file with -o; only run replaces its input, with --in-place",
         )
 
 
@@ -169,128 +166,3 @@ def _cannot_write(target: Path, error: OSError | RuntimeError) -> OutputError:
         where=str(target),
         hint=hint[0].upper() + hint[1:],
     )
-
-
-# --- what would be lost ---
-
-OBJECTS = {
-    "charts": ("/charts/chart", b""),
-    "pictures": ("/media/", b""),
-    "shapes or text boxes": ("/drawings/drawing", b"<xdr:sp[ />]"),
-    "comments or notes": ("/comments", b"<comment[ />]"),
-    "threaded comments": ("/threadedComments/", b"<threadedComment "),
-    "hyperlinks": ("/worksheets/sheet", b"<hyperlink "),
-    "macro modules": ("/vbaProject.bin", b""),
-    "pivot tables": ("/pivotTables/pivotTable", b""),
-    "links to other workbooks": ("/externalLinks/externalLink", b""),
-    "controls": ("/ctrlProps/", b""),
-}
-"""Objects in a workbook: what the names of their parts hold, and what is counted in these."""
-
-INPUTS = (*layout.PARAMETERS, layout.USER_BLOCK)
-"""Inputs on the sheet ``GA``."""
-
-LOG_COLUMNS = 2
-"""The run log is ours in these columns, however many warnings it has."""
-
-
-def refuse_losses(target: Path, source: Source, content: bytes, ours: Filled) -> None:
-    """Refuse to replace a workbook that holds something which is not ours.
-
-    Parameters
-    ----------
-    target : Path
-    source : Source
-        The workbook to replace.
-    content, ours : bytes, Filled
-        The same workbook as we wrote it, and the cells that we fill.
-
-    Raises
-    ------
-    OutputError
-        Naming everything that would be lost.
-    """
-    lost = losses(source, content, ours)
-    if lost:
-        raise OutputError(
-            f"{target} holds what the new workbook would not: {'; '.join(lost)}. "
-            "Nothing was written.",
-            where=str(target),
-            hint="Write to another file with -o, or add --force to lose it",
-        )
-
-
-def filled_cells(source: Source, sheet: str) -> set[tuple[int, int]]:
-    """Return the rows and columns of all cells that hold anything."""
-    grids = (source.grid(sheet, formulas=formulas) for formulas in (False, True))
-    return {
-        (row, column)
-        for grid in grids
-        for row, values in grid.rows.items()
-        for column, value in enumerate(values)
-        if not is_blank(value)
-    }
-
-
-def losses(source: Source, content: bytes, ours: Filled) -> list[str]:
-    """List what a workbook holds beside what we wrote (content, filled cells)."""
-    own = {name: name for name in ours} | {find_sheet(source): layout.OPTION_SPACE}
-    foreign = [name for name in source.sheets if name not in own and filled_cells(source, name)]
-    found = [f"the sheet {name!r}" for name in foreign]
-    now, written = _objects(source.package.content), _objects(content)
-    found += [
-        f"{what} ({now[what] - written[what]} more than ours)"
-        for what in OBJECTS
-        if now[what] > written[what]
-    ]
-    for sheet, our_name in own.items():
-        if sheet in source.sheets:
-            cells = sorted(filled_cells(source, sheet) - ours[our_name])
-            strange = [
-                place(sheet, row, column)
-                for row, column in cells
-                if our_name != layout.RUN_LOG or column >= LOG_COLUMNS
-            ]
-            found += _named("cells", strange)
-    return found + _named("formulas in", list(_lost_formulas(source, content, own)))
-
-
-def _objects(content: bytes) -> dict[str, int]:
-    with zipfile.ZipFile(io.BytesIO(content)) as archive:
-        names = archive.namelist()
-        return {
-            what: sum(
-                len(re.findall(counted, archive.read(name))) if counted else 1
-                for name in names
-                if part in name
-            )
-            for what, (part, counted) in OBJECTS.items()
-        }
-
-
-def _named(what: str, cells: list[str]) -> list[str]:
-    more = f" and {len(cells) - MAX_NAMED} more" if len(cells) > MAX_NAMED else ""
-    return [f"the {what} {', '.join(cells[:MAX_NAMED])}{more}"] if cells else []
-
-
-def _lost_formulas(source: Source, content: bytes, own: dict[str, str]) -> Iterator[str]:
-    """Yield the inputs that hold somebody's formula, of which only the value would be left."""
-    written = Source(Package("the workbook as we wrote it", content))
-    cells = [
-        cell
-        for field in INPUTS
-        if field.name in source.names
-        for row in cells_of(source.names[field.name])
-        for cell in row
-    ]
-    for sheet, our_name in own.items():
-        if our_name == layout.OPTION_SPACE and sheet in source.sheets:
-            cells += [
-                Area(sheet, row, column)
-                for row, formulas in source.grid(sheet, formulas=True).rows.items()
-                for column in range(len(formulas))
-            ]
-    for cell in cells:
-        ours = Area(own.get(cell.sheet, cell.sheet), cell.row, cell.column)
-        if source.formula(cell) is not None and written.formula(ours) is None:
-            yield cell.where

@@ -13,6 +13,7 @@ from grasp_xl.workbook.pen import ROW_HEIGHT, Pen
 from grasp_xl.workbook.styles import Style
 
 DASH = "-"
+YES, NO = "yes", "no"
 CRITERIA = (
     ("fos", "FoS", "FoS", Style.RATIO),
     ("cost", "Cost", "Cost ($)", Style.MONEY),

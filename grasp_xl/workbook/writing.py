@@ -14,7 +14,7 @@ from grasp_xl.space import OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.calc_sheet import write_calc
-from grasp_xl.workbook.designs_sheet import write_valid_designs
+from grasp_xl.workbook.designs_sheet import number_of, write_valid_designs
 from grasp_xl.workbook.fitness_sheet import write_fitness_table
 from grasp_xl.workbook.ga_sheet import Shown, parameter_values, user_block, write_ga
 from grasp_xl.workbook.grasp_sheet import Picture, write_grasp
@@ -36,6 +36,7 @@ def full_workbook(
     origin: Origin,
     *,
     what_if: Chromosome | None = None,
+    picked: Chromosome | None = None,
     stale_user: Chromosome | None = None,
 ) -> tuple[bytes, Filled]:
     """Return the full workbook of a run, and the cells that it fills.
@@ -46,13 +47,20 @@ def full_workbook(
     origin : Origin
         Goes to the run log.
     what_if : Chromosome, optional
-        Genes that the designer typed into the What-if card; the best grasp where there are none.
+        Genes that the designer typed into the What-if card.
+    picked : Chromosome, optional
+        Valid design that the designer picked: it stays on the What-if card unless others were
+        typed, as the pick where it is in the list, else as typed genes.  Where nothing was typed or
+        picked, the card shows the best grasp.
     stale_user : Chromosome, optional
         User-defined genes that this option space does not have: shown, not used.
     """
     best = result.best or result.benchmark
-    typed = evaluate(task.space, task.rules, what_if) if what_if else None
-    shown = Shown(typed or best, typed is not None, stale_user)
+    if picked and number_of(result, picked) is None:
+        what_if, picked = what_if or picked, None
+    on_card = what_if or picked
+    grasp = evaluate(task.space, task.rules, on_card) if on_card else best
+    shown = Shown(grasp, what_if is not None, stale_user)
     plan = Layout(task.space.gene_slots, task.settings.children)
 
     file = io.BytesIO()
@@ -65,7 +73,7 @@ def full_workbook(
     pens = {name: Pen(book, formats, name, run) for name in layout.SHEETS}
     write_option_space(pens[layout.OPTION_SPACE], task.space, live=True)
     cards = write_ga(pens[layout.GA], plan, task, result, shown)
-    write_valid_designs(pens[layout.VALID_DESIGNS], book, result, best.chromosome)
+    write_valid_designs(pens[layout.VALID_DESIGNS], book, result, best.chromosome, picked)
     write_fitness_table(pens[layout.FITNESS_TABLE], result)
     write_history(pens[layout.HISTORY], book, result)
     benchmark = Picture("Benchmark grasp", result.benchmark, user_block(plan))

@@ -1,0 +1,50 @@
+"""The least value of each criterion alone, proved by the exact search."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from grasp_xl.chromosome import Chromosome
+from grasp_xl.rules import TERMS, Criterion, Rules, Terms
+from grasp_xl.search.exact import ExactSettings, solve
+from grasp_xl.search.floors import floors
+from grasp_xl.space import OptionSpace
+
+
+def proven_floors(
+    space: OptionSpace,
+    rules: Rules,
+    *,
+    seconds: float,
+    known: Sequence[Chromosome] = (),
+    stop: Callable[[], bool] = lambda: False,
+) -> Terms:
+    """Return the least value of each criterion alone that a grasp under the constraints has.
+
+    Where the proof does not end in time, it is the greatest number that none was proved below.
+
+    Parameters
+    ----------
+    space, rules
+        Of which a grasp meets FoS and clearance; the goals and the criterion do not matter.
+    seconds : float
+        Longest search, of all four together.
+    known : sequence of Chromosome
+        Grasps that are known already.
+    stop : callable
+        True ends the search.
+    """
+    least = floors(space, rules.requirements)
+    deadline = time.perf_counter() + seconds
+    found = []
+    for searches, term in zip(range(len(TERMS), 0, -1), TERMS, strict=True):
+        left = deadline - time.perf_counter()
+        if left <= 0 or stop():
+            found.append(getattr(least, term))
+            continue
+        alone = replace(rules, criterion=Criterion(frozenset({term})))
+        settings = ExactSettings(time_limit_s=left / searches)
+        found.append(solve(space, alone, settings, known=known, stop=stop).bound)
+    return Terms(*found)

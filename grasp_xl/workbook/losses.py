@@ -1,0 +1,249 @@
+"""What the next writing of a workbook would lose: it is compared with what we would write as it is.
+
+All that we read from a workbook we also write into it again.  So whatever is in the workbook and
+not in that copy, would be gone.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+import zipfile
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from grasp_xl.errors import OutputError
+from grasp_xl.workbook import layout
+from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank, normal, same_formula
+from grasp_xl.workbook.designs_sheet import PICK_NAME
+from grasp_xl.workbook.extras import AREA_NAMES, VALIDATIONS, Extra, not_among, read_extras
+from grasp_xl.workbook.layout import CALC, GRASP, OPTION_SPACE, RUN_LOG, Area
+from grasp_xl.workbook.package import Package
+from grasp_xl.workbook.reading import find_sheet
+from grasp_xl.workbook.table import DASH, NO, YES
+from grasp_xl.workbook.writing import Filled
+
+MAX_NAMED = 10
+"""Things of a kind, on a sheet, that a message names."""
+
+OBJECTS = {
+    "pictures": ("/media/", b""),
+    "shapes or text boxes": ("/drawings/drawing", b"<xdr:sp[ />]"),
+    "threaded comments": ("/threadedComments/", b"<threadedComment "),
+    "macro modules": ("/vbaProject.bin", b""),
+    "pivot tables": ("/pivotTables/pivotTable", b""),
+    "links to other workbooks": ("/externalLinks/externalLink", b""),
+    "controls": ("/ctrlProps/", b""),
+    "sparklines": ("/worksheets/sheet", b"<x14:sparkline>"),
+}
+"""Objects of which we have none, or none in another place: what the names of their parts hold, and
+what is counted in these."""
+
+KINDS = layout.KINDS
+INPUT_NAMES = (
+    *(one.name for one in (*layout.PARAMETERS, *layout.PART.fields, layout.SCALE_FACTOR)),
+    *(one.name for kind in KINDS for one in (*kind.section.fields, kind.diameter, kind.model)),
+    *(kind.locations_name for kind in KINDS),
+    *(layout.IDEAL_POLYGON, layout.APPROXIMATION_POLYGON),
+    *(layout.USER_BLOCK.name, layout.WHAT_IF.name, PICK_NAME),
+)
+"""Cells whose values are read: what is typed there is kept."""
+
+HELPER_SHEETS = (GRASP, CALC)
+"""What is no formula there is a copy of inputs, for pictures and cards."""
+
+LOG_COLUMNS = 2
+"""The run log is ours in these columns, and each run says there what it likes."""
+
+CELLS, FORMULAS, CHANGED = "cells", "formulas in", "changed cells"
+ACCURACY = 1e-9
+"""Programs store numbers with 15 digits or 17."""
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """A workbook written again as it was.
+
+    Parameters
+    ----------
+    content : bytes
+    filled : Filled
+        The cells that we fill.
+    same_inputs : bool
+        Whether its results are those of the inputs that it has now: else numbers and what depends
+        on sizes are different though nobody typed over them.
+    """
+
+    content: bytes
+    filled: Filled
+    same_inputs: bool
+
+
+def refuse_losses(target: Path, source: Source, written: Written) -> None:
+    """Refuse to replace a workbook that holds something which is not ours.
+
+    Parameters
+    ----------
+    target : Path
+    source : Source
+        The workbook to replace.
+    written : Written
+
+    Raises
+    ------
+    OutputError
+        Naming everything that would be lost.
+    """
+    lost = losses(source, written)
+    if lost:
+        raise OutputError(
+            f"{target} holds what the new workbook would not: {'; '.join(lost)}. "
+            "Nothing was written.",
+            where=str(target),
+            hint="Write to another file with -o, or add --force to lose it",
+        )
+
+
+def losses(source: Source, written: Written) -> list[str]:
+    """List what a workbook holds beside what we wrote."""
+    copy = Package("the workbook as we wrote it", written.content)
+    own = {name: name for name in written.filled} | {find_sheet(source): OPTION_SPACE}
+    found = [f"the sheet {name!r}" for name in source.sheets if name not in own]
+    now, then = _objects(source.package), _objects(copy)
+    found += [
+        f"{what} ({now[what] - then[what]} more than ours)"
+        for what in OBJECTS
+        if now[what] > then[what]
+    ]
+    theirs, ours = read_extras(source.package), read_extras(copy)
+    found += _extras(theirs.of_book, ours.of_book)
+    cells = Comparison(source, Source(copy), written)
+    for sheet, our_name in own.items():
+        if sheet in source.sheets:
+            changes = list(cells.changes(sheet, our_name))
+            for what in (CELLS, FORMULAS, CHANGED):
+                found += _named(what, [where for kind, where in changes if kind == what])
+            same_sizes = written.same_inputs and our_name != RUN_LOG
+            extras = (theirs.by_sheet[sheet], ours.by_sheet[our_name])
+            found += _extras(*extras, same_sizes=same_sizes)
+    return found
+
+
+def filled_cells(source: Source, sheet: str) -> set[tuple[int, int]]:
+    """Return the rows and columns of all cells that hold anything."""
+    grids = (source.grid(sheet, formulas=formulas) for formulas in (False, True))
+    return {
+        (row, column)
+        for grid in grids
+        for row, values in grid.rows.items()
+        for column, value in enumerate(values)
+        if not is_blank(value)
+    }
+
+
+def _objects(package: Package) -> dict[str, int]:
+    with zipfile.ZipFile(io.BytesIO(package.content)) as archive:
+        names = archive.namelist()
+        return {
+            what: sum(
+                len(re.findall(counted, archive.read(name))) if counted else 1
+                for name in names
+                if part in name
+            )
+            for what, (part, counted) in OBJECTS.items()
+        }
+
+
+def _extras(theirs: list[Extra], ours: list[Extra], *, same_sizes: bool = True) -> list[str]:
+    if not same_sizes:
+        theirs, ours = ([_without_sizes(one) for one in extras] for extras in (theirs, ours))
+    lost: dict[str, list[str]] = {}
+    for one in not_among(theirs, ours):
+        lost.setdefault(one.what, []).append(one.where)
+    return [text for what, places in lost.items() for text in _named(what, places)]
+
+
+def _without_sizes(extra: Extra) -> Extra:
+    if extra.what in (VALIDATIONS, *AREA_NAMES.values()):
+        return replace(extra, key=re.sub(r"\d", "", extra.key))
+    return extra
+
+
+def _named(what: str, places: list[str]) -> list[str]:
+    places = list(dict.fromkeys(places))
+    more = f" and {len(places) - MAX_NAMED} more" if len(places) > MAX_NAMED else ""
+    return [f"the {what} {', '.join(places[:MAX_NAMED])}{more}"] if places else []
+
+
+class Comparison:
+    """Compares the cells of a workbook with those of its copy."""
+
+    def __init__(self, source: Source, copy: Source, written: Written) -> None:
+        self._source = source
+        self._copy = copy
+        self._written = written
+        self._inputs = {
+            cell
+            for name in INPUT_NAMES
+            if name in source.names
+            for row in cells_of(source.names[name])
+            for cell in row
+        }
+
+    def changes(self, sheet: str, our_name: str) -> Iterator[tuple[str, str]]:
+        """Yield what would be lost of a sheet, and the cell where it stands."""
+        ours = self._written.filled[our_name]
+        for row, column in sorted(filled_cells(self._source, sheet)):
+            if our_name == RUN_LOG and column < LOG_COLUMNS:
+                continue
+            cell, copied = Area(sheet, row, column), Area(our_name, row, column)
+            what = self._change(cell, copied) if (row, column) in ours else CELLS
+            if what:
+                yield what, cell.where
+
+    def _change(self, cell: Area, copied: Area) -> str:
+        """Return what is lost of a cell where we have one, too; nothing if it is empty."""
+        formula, our_formula = self._formula(self._source, cell), self._formula(self._copy, copied)
+        if cell in self._source.worked_out or (cell in self._inputs and not formula):
+            return ""
+        if formula:
+            kept = our_formula == formula or (our_formula and cell in self._inputs)
+            return "" if kept else FORMULAS
+        value, our_value = self._source.value(cell), self._copy.value(copied)
+        if our_formula:
+            kept = _same(value, our_value)
+        else:
+            kept = copied.sheet in HELPER_SHEETS or self._same_value(value, our_value)
+        return "" if kept else CHANGED
+
+    @staticmethod
+    def _formula(source: Source, cell: Area) -> str:
+        text = source.grid(cell.sheet, formulas=True).at(cell.row, cell.column)
+        return same_formula(str(getattr(text, "text", text) or ""))
+
+    def _same_value(self, value: Value, our_value: Value) -> bool:
+        """Compare values; where inputs changed, a result may be another one."""
+        if not self._written.same_inputs and _is_result(value) and _is_result(our_value):
+            return True
+        if isinstance(value, str) and isinstance(our_value, str):
+            return self._same_text(normal(value), normal(our_value))
+        return _same(value, our_value)
+
+    def _same_text(self, text: str, our_text: str) -> bool:
+        """Compare text; where inputs changed, without what they say in it: ``(seed 2)``, ``5``."""
+        if not self._written.same_inputs:
+            text, our_text = (re.sub(r"\(.*\)|\d", "", one) for one in (text, our_text))
+        return text.strip() == our_text.strip()
+
+
+def _is_result(value: Value) -> bool:
+    return isinstance(value, int | float) or value in (DASH, YES, NO)
+
+
+def _same(value: Value, our_value: Value) -> bool:
+    """Compare values as far as programs keep their digits."""
+    if isinstance(value, int | float) and isinstance(our_value, int | float):
+        return math.isclose(value, our_value, rel_tol=ACCURACY, abs_tol=ACCURACY)
+    return value == our_value
