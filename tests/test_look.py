@@ -71,6 +71,15 @@ def book(path: Path) -> openpyxl.Workbook:
     return openpyxl.load_workbook(path)
 
 
+def test_results_have_their_units(book):
+    """In the fitness table by the format of each number, in the history by the label."""
+    row = book[layout.FITNESS_TABLE][4]
+    units = [re.sub("[^$A-Za-z-]", "", cell.number_format) for cell in row[1:]]
+    assert units == ["", "$", "N-mm", "mm", "mm", ""]
+    labels = [cell.value for cell in book[layout.HISTORY][layout.HISTORY_ROW + 1][1:7]]
+    assert labels[1:5] == ["Cost ($)", "Residual Moment (N-mm)", "Deviation (mm)", "Structure (mm)"]
+
+
 def test_every_input_has_a_range_and_its_label_a_note(book):
     """Also on the option-space sheet; models are free text, and a list of words refuses by itself."""
     fields = [field for labels in layout.KINDS for field in labels.section.fields]

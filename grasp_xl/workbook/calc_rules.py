@@ -142,8 +142,9 @@ def polygon(corners: int) -> Rule:
     """Return the rule of the ideal polygon."""
     words = "numbers, around an area, and no corner twice in a row"
     area = "EdgeStartX*EdgeY-EdgeStartY*EdgeX"
-    test = f"AND(MIN(EdgeSquared)>0,ABS(SUMPRODUCT({area}))>1E-12*SUM(EdgeSquared))"
+    sound = "1"
     if corners <= MAX_CHECKED_CORNERS:
         words = "numbers, around an area, no corner twice in a row, no edge across another"
-        test = f"IF({test},SUM(EdgeCrossings)=0,FALSE)"
-    return Rule(words, f"IF(COUNT({{x}})=3*ROWS({{x}}),IF({test},1,0),0)")
+        sound = "IF(SUM(EdgeCrossings)=0,1,0)"
+    test = f"AND(MIN(EdgeSquared)>0,ABS(SUMPRODUCT({area}))>1E-12*SUM(EdgeSquared))"
+    return Rule(words, f"IF(COUNT({{x}})=3*ROWS({{x}}),IF({test},{sound},0),0)")
