@@ -695,6 +695,14 @@ def test_a_list_that_grew_asks_for_a_run(opened):
     assert told in str(opened.value(PLAN.what_if.status))
 
 
+def test_a_polygon_that_grew_asks_for_a_run(opened):
+    """A corner in the row below the last is the reader's, and none of the cards': they say so."""
+    below = CORNER.cell(len(opened.read("ApproximationPolygon")), 0)
+    opened.enter({below.cell(0, axis): value for axis, value in enumerate((-200.0, 10.0, 0.0))})
+    told = "type the corners that the cards know; for more run grasp-xl on this workbook."
+    assert told in str(opened.value(PLAN.what_if.status))
+
+
 def test_an_inactive_wrong_index_does_no_harm(opened):
     """Only active genes enter a sum: others may be anything."""
     opened.enter(TYPED_GENES)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 import zipfile
 from collections.abc import Iterator
@@ -70,6 +71,15 @@ def book(path: Path) -> openpyxl.Workbook:
     return openpyxl.load_workbook(path)
 
 
+def test_results_have_their_units(book):
+    """In the fitness table by the format of each number, in the history by the label."""
+    row = book[layout.FITNESS_TABLE][4]
+    units = [re.sub("[^$A-Za-z-]", "", cell.number_format) for cell in row[1:]]
+    assert units == ["", "$", "N-mm", "mm", "mm", ""]
+    labels = [cell.value for cell in book[layout.HISTORY][layout.HISTORY_ROW + 1][1:7]]
+    assert labels[1:5] == ["Cost ($)", "Residual Moment (N-mm)", "Deviation (mm)", "Structure (mm)"]
+
+
 def test_every_input_has_a_range_and_its_label_a_note(book):
     """Also on the option-space sheet; models are free text, and a list of words refuses by itself."""
     fields = [field for labels in layout.KINDS for field in labels.section.fields]
@@ -103,3 +113,23 @@ def test_ranges_of_genes_follow_what_is_typed(book):
     }
     assert ("SuctionMin", "MIN(SuctionMax,SuctionTotal,5)") in found
     assert ("MIN(1,MagnetTotal)", "MagnetTotal") in found
+
+
+def test_a_chart_has_its_size_whatever_the_cells_under_it(parts):
+    """Each is anchored at one cell, with a size: columns of other widths cannot stretch it."""
+    drawings = [text for name, text in parts.items() if name.startswith("xl/drawings/drawing")]
+    anchors = [anchor for text in drawings for anchor in re.findall(r"<xdr:\w+Anchor[ >]", text)]
+    assert anchors == ["<xdr:oneCellAnchor>"] * len(list(charts(parts)))
+    assert all(text.count("<xdr:ext ") == text.count("<xdr:oneCellAnchor>") for text in drawings)
+
+
+@pytest.mark.parametrize("seed", [1, 18])
+def test_every_sheet_is_one_page_wide(seed):
+    """By a scale that the program finds when it prints, with any font; also with a Max. above 5."""
+    with zipfile.ZipFile(io.BytesIO(random_case(seed).workbook())) as book:
+        for number in range(1, len(layout.SHEETS) + 1):
+            sheet = book.read(f"xl/worksheets/sheet{number}.xml").decode()
+            assert '<pageSetUpPr fitToPage="1"/>' in sheet
+            (setup,) = re.findall("<pageSetup [^>]*>", sheet)
+            assert "scale=" not in setup
+            assert "fitToWidth" not in setup  # 1, unless it says otherwise

@@ -12,7 +12,7 @@ from grasp_xl.rules import DIVERGENCE, TERMS
 from grasp_xl.space import MAX_COUNT, OptionSpace
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import MAX_NUMBER
-from grasp_xl.workbook.layout import KINDS
+from grasp_xl.workbook.layout import KINDS, Area
 
 SLACK = "1E-9"
 """Relative slack of a comparison, and the least number that counts as above 0."""
@@ -139,11 +139,16 @@ def places(name: str) -> Rule:
 
 
 def polygon(corners: int) -> Rule:
-    """Return the rule of the ideal polygon."""
+    """Return the rule of the ideal polygon; a corner typed below the last is none of a card's."""
     words = "numbers, around an area, and no corner twice in a row"
     area = "EdgeStartX*EdgeY-EdgeStartY*EdgeX"
-    test = f"AND(MIN(EdgeSquared)>0,ABS(SUMPRODUCT({area}))>1E-12*SUM(EdgeSquared))"
+    sound = "1"
     if corners <= MAX_CHECKED_CORNERS:
         words = "numbers, around an area, no corner twice in a row, no edge across another"
-        test = f"IF({test},SUM(EdgeCrossings)=0,FALSE)"
-    return Rule(words, f"IF(COUNT({{x}})=3*ROWS({{x}}),IF({test},1,0),0)")
+        sound = "IF(SUM(EdgeCrossings)=0,1,0)"
+    row, column = layout.POLYGON_HEADER_ROW + 1 + corners, layout.APPROXIMATION_COLUMN + 1
+    added = f"COUNTA({Area(layout.OPTION_SPACE, row, column, 1, 3).reference})"
+    test = f"AND(MIN(EdgeSquared)>0,ABS(SUMPRODUCT({area}))>1E-12*SUM(EdgeSquared),{added}=0)"
+    known = "the corners that the cards know; for more run grasp-xl on this workbook"
+    formula = f"IF(COUNT({{x}})=3*ROWS({{x}}),IF({test},{sound},0),0)"
+    return Rule(words, formula, f'IF({added}=0,"{words}","{known}")')

@@ -7,10 +7,19 @@ from grasp_xl.search.result import Result
 from grasp_xl.workbook.layout import FITNESS_TABLE, Area
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import Style
-from grasp_xl.workbook.table import CRITERIA, DASH
+from grasp_xl.workbook.table import DASH
 
 LABELS = {10_000: "Gen: 10k", 50_000: "Gen: 50k"}
 COLUMNS = ("Grasp", "FoS", "Cost", "Moment", "Deviation", "Structure", "Divergence")
+LOOKS = (
+    Style.RATIO,
+    Style.DOLLARS,
+    Style.NEWTON_MM,
+    Style.FINE_MM,
+    Style.MM,
+    Style.DIVERGENCE,
+)
+"""Numbers with their units: the labels are the thesis's, and have none."""
 BENCHMARK = "Benchmark"
 
 
@@ -34,8 +43,8 @@ def write_fitness_table(pen: Pen, result: Result) -> None:
 
 def _row(pen: Pen, row: int, grasp: Grasp, *, with_fitness: bool) -> None:
     values = (grasp.fos, *grasp.terms, grasp.divergence)
-    for column, ((name, _, _, style), value) in enumerate(zip(CRITERIA, values, strict=True), 1):
-        if with_fitness or name == "fos":
+    for column, (style, value) in enumerate(zip(LOOKS, values, strict=True), 1):
+        if with_fitness or column == 1:
             pen.write(row, column, value, style)
         else:
             pen.write(row, column, DASH, Style.CENTRED)

@@ -58,7 +58,7 @@ def write_ga(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) -
 
 
 def _look(pen: Pen, plan: Layout) -> None:
-    """Set widths and pages: parameters and blocks, then two cards a page, or one if wide."""
+    """Set widths and pages: parameters and blocks, then two cards a page; less where wide."""
     pen.sheet.freeze_panes(1, 0)
     pen.widths(0, 32, 12, 2)
     cards = [plan.card(number) for number in range(plan.children + 1)]
@@ -68,8 +68,12 @@ def _look(pen: Pen, plan: Layout) -> None:
     width, _ = pen.sheet.pixels(areas[0])
     abreast = max(1, min(2, int(PAGE_WIDTH * 100 / LEAST_SCALE / width)))
     rows = [areas[first : first + abreast] for first in range(0, len(areas), abreast)]
-    blocks = Area(GA, 0, 0, plan.card_row - 1, areas[1].column + areas[1].columns)
-    pen.print_pages(pictures=[blocks, *(_spanned(row) for row in rows)])
+    left = Area(GA, 0, 0, plan.card_row - 1, areas[0].column + areas[0].columns)
+    right = Area(GA, 0, areas[1].column, left.rows, areas[1].columns)
+    blocks = [_spanned([left, right])]
+    if pen.sheet.pixels(blocks[0])[0] * LEAST_SCALE > PAGE_WIDTH * 100:
+        blocks = [left, right]
+    pen.print_pages(pictures=[*blocks, *(_spanned(row) for row in rows)])
 
 
 def _spanned(areas: list[Area]) -> Area:

@@ -70,7 +70,7 @@ LABEL_SIZE = 8
 MARGIN = 0.01
 """Free part of the extent on each side, beyond the elements and the part."""
 PICTURE_COLUMNS = 12
-"""Of the default width: LibreOffice makes others wider, and stretches the picture with them."""
+"""Of the default width, from one picture to the next."""
 FIRST_POINT = 3
 NO_POINT = "#N/A"
 

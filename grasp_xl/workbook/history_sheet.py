@@ -45,7 +45,7 @@ def write_history(pen: Pen, book: Any, result: Result) -> None:  # noqa: ANN401 
     """Write the generations where the fittest changed, the first and the last, and the charts."""
     history = _listed(result)
     genes = gene_columns(result.space)
-    labels = ["Generation", *(title for _, title, _, _ in CRITERIA), *gene_labels(result.space)]
+    labels = ["Generation", *(label for _, _, label, _ in CRITERIA), *gene_labels(result.space)]
     pen.write(0, 0, "HISTORY: the generations where the fittest grasp changed", Style.TITLE)
     looks = (Style.COUNT, *(style for _, _, _, style in CRITERIA), *gene_styles(result.space))
     columns = ["generation", *(name for name, _, _, _ in CRITERIA), *genes]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
 import xlsxwriter
+from xlsxwriter.drawing import Drawing, DrawingInfo
 from xlsxwriter.worksheet import Worksheet
 
 from grasp_xl.workbook.layout import Area
@@ -26,10 +28,14 @@ PAGE_WIDTH, PAGE_HEIGHT = 0.93 * 10.5 * 96, 0.97 * 6.9 * 96
 
 LibreOffice's columns are 6 percent wider: it does not round the width of a digit to whole pixels.
 """
-LEAST_SCALE, MOST_SCALE = 60, 85
-"""Scales of printed pages (percent): text of 9 points is then 5.4 to 7.7 points high."""
+A4_ASPECT = 11.2 / 6.7
+"""Width over height of an A4 page, the wider of the two, with a reserve of height."""
+LEAST_SCALE, MOST_SCALE = 60, 75
+"""Scales of printed pages (percent) that read well: 9 points become 5.4 to 6.7."""
 FIT_SCALE = 43
-"""Least at which a page that is too wide is fitted to the paper; a wider one runs over."""
+"""Least scale at which a picture is kept whole."""
+EMU = 9525
+"""English metric units of a pixel."""
 
 CellValue = str | int | float | bool | None
 
@@ -50,18 +56,42 @@ class Cell:
     columns: int = 1
 
 
+class SizedDrawing(Drawing):  # type: ignore[misc]
+    """The charts of a sheet, each at a cell and with a size of its own.
+
+    XlsxWriter anchors both corners of a chart at cells: where a computer has other fonts, columns
+    have other widths, and the chart would be stretched, and so would be the scale of its picture.
+    """
+
+    def _write_two_cell_anchor(self, index: int, drawing: DrawingInfo) -> None:
+        self._xml_start_tag("xdr:oneCellAnchor")
+        self._write_from(*drawing._dimensions[:4])  # noqa: SLF001 (a hook into the base)
+        self._write_xdr_ext(EMU * drawing._width, EMU * drawing._height)  # noqa: SLF001 (the same)
+        self._write_graphic_frame(index, drawing)
+        self._write_client_data()
+        self._xml_end_tag("xdr:oneCellAnchor")
+
+
 class ExactWorksheet(Worksheet):  # type: ignore[misc]
     """A worksheet whose numbers keep all 17 digits, so that reading gives the same doubles.
 
-    And one that takes formulas as they are: to look for functions newer than Excel 2016, which none
-    of ours has, would take as long as all the rest of the writing.
+    Its charts keep their size.  And it takes formulas as they are: to look for functions newer than
+    Excel 2016, which none of ours has, would take as long as all the rest of the writing.
     """
+
+    drawing: Drawing
 
     def pixels(self, area: Area) -> tuple[int, int]:
         """Return the width and height of an area as shown at 100 percent."""
         columns = range(area.column, area.column + area.columns)
         rows = range(area.row, area.row + area.rows)
         return sum(map(self._size_col, columns)), sum(map(self._size_row, rows))
+
+    def _prepare_chart(self, index: int, chart_id: int, drawing_id: int) -> None:
+        super()._prepare_chart(index, chart_id, drawing_id)
+        if not isinstance(self.drawing, SizedDrawing):
+            made, self.drawing = self.drawing, SizedDrawing()
+            self.drawing.embedded, self.drawing.drawings = made.embedded, made.drawings
 
     def _prepare_formula(self, formula: str, expand_future_functions: bool = False) -> str:  # noqa: ARG002, FBT001, FBT002 (signature of the base)
         return formula.removeprefix("=")
@@ -163,7 +193,7 @@ class Pen:
         for axis in (chart.x_axis, chart.y_axis):
             axis["num_font"] = _in_our_font(chart, axis["num_font"])
         chart.legend["font"] = _in_our_font(chart, chart.legend.get("font"))
-        self.sheet.insert_chart(row, column, chart, {"object_position": 2})
+        self.sheet.insert_chart(row, column, chart)
 
     def fix_row_heights(self) -> None:
         """Give every filled row its height; LibreOffice would choose another and stretch charts."""
@@ -176,30 +206,39 @@ class Pen:
             self.sheet.set_column(column + offset, column + offset, width)
 
     def print_pages(self, *lists: Area, pictures: Iterable[Area] = ()) -> None:
-        """Print these areas, each from a new page on, at one scale that suits A4 and Letter.
+        """Print these areas, each from a new page on and one page wide, on A4 or Letter.
 
-        Column widths must be set before.  Where the widest area is somewhat too wide (many place
-        genes), the scale is less; if no picture is then cut, it is left to the program that prints.
+        Where all of them are legible so, each is also one page tall.  The program that prints finds
+        the scale, for its own fonts.  Column widths must be set before.
 
         Parameters
         ----------
         lists : Area
-            One page wide, and as many pages long as they need.
+            As many pages long as they need.
         pictures : iterable of Area
             What belongs on one page, behind the lists.
         """
         pages = [*lists, *pictures]
-        wide = [100 * PAGE_WIDTH / self.sheet.pixels(page)[0] for page in pages]
-        high = [100 * PAGE_HEIGHT / self.sheet.pixels(page)[1] for page in pages[len(lists) :]]
-        too_wide = FIT_SCALE <= min(wide) < LEAST_SCALE
-        # LibreOffice fits each area by itself, and enlarges none.
-        widths = wide[len(lists) :]
-        if too_wide and all(w <= h or h >= 100 for w, h in zip(widths, high, strict=True)):
-            self.sheet.fit_to_pages(1, 0)
-        else:
-            least = int(min(wide)) if too_wide else LEAST_SCALE
-            self.sheet.set_print_scale(max(least, min(MOST_SCALE, int(min(wide + high)))))
+        sizes = [self.sheet.pixels(page) for page in pages]
+        scale = min(MOST_SCALE / 100, *(PAGE_WIDTH / width for width, _ in sizes))
+        whole = [100 * min(scale, PAGE_HEIGHT / height) for _, height in sizes]
+        least = [LEAST_SCALE] * len(lists) + [FIT_SCALE] * (len(pages) - len(lists))
+        legible = all(fit >= bound for fit, bound in zip(whole, least, strict=True))
+        tall = max(math.ceil(scale * height / PAGE_HEIGHT) for _, height in sizes)
+        self.sheet.fit_to_pages(1, 1 if legible else tall)
         self.sheet.print_area_range = ",".join(page.reference for page in pages)
+        if lists and not legible:
+            for picture in pages[len(lists) :]:
+                self._widen(picture)
+
+    def _widen(self, picture: Area) -> None:
+        """Make a picture's last column so wide that a page of its width has its height as well."""
+        width, height = self.sheet.pixels(picture)
+        missing = int(A4_ASPECT * height) - width
+        if height > PAGE_HEIGHT and missing > 0:
+            last = picture.cell(0, picture.columns - 1)
+            own, _ = self.sheet.pixels(last)
+            self.sheet.set_column_pixels(last.column, last.column, own + missing)
 
     def name_area(self, name: str, area: Area) -> None:
         """Give a block of cells a workbook-level name."""

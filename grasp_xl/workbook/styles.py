@@ -92,6 +92,10 @@ class Style(Enum):
     TORQUE = "torque", {**_NUMBER, "num_format": "#,##0.00"}
     FORCE = "force", {**_NUMBER, "num_format": "#,##0.0000"}
     MONEY = "money", {**_NUMBER, "num_format": "#,##0.00"}
+    DOLLARS = "dollars", {**_NUMBER, "num_format": '"$"#,##0.00'}
+    NEWTON_MM = "newton_mm", {**_NUMBER, "num_format": '#,##0.00" N-mm"'}
+    MM = "mm", {**_NUMBER, "num_format": '#,##0.00" mm"'}
+    FINE_MM = "fine_mm", {**_NUMBER, "num_format": '0.0000" mm"'}
     RATIO = "ratio", {**_NUMBER, "num_format": "0.0000"}
     RESULT = "result", {**_NUMBER, "bold": True, "num_format": "#,##0.000"}
     DIVERGENCE = "divergence", {**_NUMBER, "bold": True, "num_format": "0.000"}
