@@ -379,25 +379,3 @@ HISTORY_ROW = 2
 
 GRASP_DATA_COLUMN = 30
 """First column of the points that the pictures are drawn from."""
-
-_OPEN_LISTS = {
-    # sheet: (first row, first column, last column) of lists whose length is not ours to say
-    OPTION_SPACE: (
-        (FIRST_LOCATION_ROW, INDEX_COLUMN, OVERLAP_COLUMN),
-        (POLYGON_HEADER_ROW, POLYGON_COLUMN, APPROXIMATION_COLUMN + 3),
-    ),
-    VALID_DESIGNS: ((TABLE_ROW, 0, 10_000),),
-    FITNESS_TABLE: ((2, 0, 6),),
-    HISTORY: ((HISTORY_ROW, 0, 10_000),),
-    GRASP: ((0, GRASP_DATA_COLUMN, 10_000),),
-    RUN_LOG: ((0, 0, 1),),
-    CALC: ((0, 0, 10_000),),
-}
-
-
-def is_in_list(sheet: str, row: int, column: int) -> bool:
-    """Tell whether a cell belongs to a list that each run makes anew, however long it is."""
-    return any(
-        row >= first_row and first <= column <= last
-        for first_row, first, last in _OPEN_LISTS.get(sheet, ())
-    )
