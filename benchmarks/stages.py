@@ -15,7 +15,7 @@ from datetime import datetime
 from itertools import pairwise
 from pathlib import Path
 
-from grasp_xl.commands import prepare
+from grasp_xl.commands.preparing import prepare
 from grasp_xl.search.genetic import search
 from grasp_xl.search.stop import Generations
 from grasp_xl.task import Parameters

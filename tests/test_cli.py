@@ -21,7 +21,9 @@ import typer
 from bad_workbooks import tiny_export
 from python_calamine import CalamineWorkbook
 
-from grasp_xl import __main__, __version__, cli, commands, show
+from grasp_xl import __main__, __version__
+from grasp_xl.cli import options, show
+from grasp_xl.cli.program import app, main
 from grasp_xl.search import stop
 from grasp_xl.workbook import cells, reading_ga
 
@@ -70,7 +72,7 @@ class Told:
 
     def __init__(self, capsys: pytest.CaptureFixture[str], *words: object) -> None:
         capsys.readouterr()
-        self.code = cli.main([str(word) for word in words])
+        self.code = main([str(word) for word in words])
         self.out, self.err = capsys.readouterr()
 
     @property
@@ -130,7 +132,7 @@ def test_no_command_shows_the_help_and_is_wrong_usage(gx: Any) -> None:
 def test_the_command_line_starts_without_heavy_modules() -> None:
     """Importing it loads neither numba nor pandas nor openpyxl, nor anything else that is slow."""
     heavy = ("numba", "pandas", "openpyxl", "numpy", "xlsxwriter", "shapely", "scipy")
-    code = f"import sys, grasp_xl.cli; print([m for m in {heavy} if m in sys.modules])"
+    code = f"import sys, grasp_xl.cli.program; print([m for m in {heavy} if m in sys.modules])"
     found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)  # noqa: S603
     assert found.stdout.strip() == "[]"
 
@@ -383,7 +385,7 @@ def test_ctrl_c_while_the_program_loads_is_exit_code_130(
         def __getattr__(self, name: str) -> None:
             raise KeyboardInterrupt
 
-    monkeypatch.setitem(sys.modules, "grasp_xl.cli", Loading())
+    monkeypatch.setitem(sys.modules, "grasp_xl.cli.program", Loading())
     with pytest.raises(SystemExit) as end:
         __main__.entry()
     assert end.value.code == 130
@@ -396,7 +398,7 @@ def test_ctrl_c_before_a_search_is_exit_code_130(
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(commands, "check", interrupted)
+    monkeypatch.setattr("grasp_xl.commands.check.check_file", interrupted)
     told = gx("check", bracket, "--json")
     assert told.code == 130
     assert told.json["error"] == "Interrupted; nothing was written."
@@ -471,15 +473,18 @@ def test_the_grasp_of_the_options_is_the_user_defined_one(gx: Any, bracket: Path
 
 
 def test_bounds_of_options_are_those_of_the_workbook() -> None:
-    assert cells.MAX_NUMBER == reading_ga.MAX_GENERATIONS == cli.MOST
-    assert cells.MIN_DISTANCE == cli.LEAST_ABOVE_0
-    assert (reading_ga.MAX_CHILDREN, reading_ga.MAX_SEED) == (cli.MOST_CHILDREN, cli.MOST_SEED)
+    assert cells.MAX_NUMBER == reading_ga.MAX_GENERATIONS == options.MOST
+    assert cells.MIN_DISTANCE == options.LEAST_ABOVE_0
+    assert (reading_ga.MAX_CHILDREN, reading_ga.MAX_SEED) == (
+        options.MOST_CHILDREN,
+        options.MOST_SEED,
+    )
 
 
 def test_common_options_are_known_to_every_command() -> None:
     common = {"--goals", "--fos", "--clearance", "--density-ratio", "--criterion", "--moment-arm"}
     common |= {"--seed", "--json", "--quiet"}
-    parsers: Any = typer.main.get_command(cli.app)
+    parsers: Any = typer.main.get_command(app)
     for name in COMMANDS:
         assert common <= {word for option in parsers.commands[name].params for word in option.opts}
 

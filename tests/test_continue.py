@@ -16,7 +16,7 @@ from bad_workbooks import tiny_export
 from python_calamine import CalamineWorkbook
 from spaces import plate
 
-from grasp_xl import cli
+from grasp_xl.cli.program import main
 from grasp_xl.search import stop
 from grasp_xl.space import Part, frozen
 from grasp_xl.workbook import run_log
@@ -56,7 +56,7 @@ def long_numbers(tmp_path: Path) -> Path:
 
 def run(file: Path, *words: object) -> int:
     """Run without a word."""
-    return cli.main(["run", str(file), "--quiet", *map(str, words)])
+    return main(["run", str(file), "--quiet", *map(str, words)])
 
 
 def files(folder: Path) -> list[str]:
@@ -161,7 +161,7 @@ def test_a_history_that_the_workbook_could_not_list_is_a_warning(
     words = ("--generations", 300, "--history", export.with_name("first.csv"), *options)
     assert run(export, "-o", first, *words) == 0
     second = ("--continue", "--generations", "310", "--history", export.with_name("second.csv"))
-    assert cli.main(["run", str(first), *map(str, second)]) == 0
+    assert main(["run", str(first), *map(str, second)]) == 0
     told = capsys.readouterr().err
     begin = int(told.partition("from generation ")[2].split()[0])
     before, after = (
@@ -197,7 +197,7 @@ def test_a_start_without_a_feasible_parent_goes_on_in_the_same_way(bracket: Path
 
 def test_a_workbook_without_a_run_yet_goes_on_from_generation_0(export: Path) -> None:
     ready = export.with_name("ready.xlsx")
-    assert cli.main(["new", str(export), "-o", str(ready), "--quiet"]) == 0
+    assert main(["new", str(export), "-o", str(ready), "--quiet"]) == 0
     assert run(ready, "--continue", "--generations", 50) == 0
     assert content(ready.with_name("ready-result.xlsx")) == content(at_once(export, 50))
 

@@ -14,7 +14,7 @@ from office import Office, run_office
 from openpyxl.formula.translate import Translator
 from openpyxl.worksheet.worksheet import Worksheet
 
-from grasp_xl import cli
+from grasp_xl.cli.program import main
 from grasp_xl.workbook.designs_sheet import NORMALISED
 from grasp_xl.workbook.layout import TABLE_ROW, VALID_DESIGNS, Area, area_of
 from grasp_xl.workbook.styles import Style
@@ -28,7 +28,7 @@ def run(folder: Path, *words: str) -> Path:
     """Run the tiny export with prices of which no sums are the same."""
     tiny_export(folder / "tiny.xlsx", ODD_PRICES)
     command = ("run", str(folder / "tiny.xlsx"), "--generations", "3000", "--quiet")
-    assert cli.main([*command, *words]) == 0
+    assert main([*command, *words]) == 0
     return folder / "tiny-result.xlsx"
 
 

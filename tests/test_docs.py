@@ -16,9 +16,11 @@ import openpyxl
 import pytest
 import typer
 
-from grasp_xl import commands, criteria
+from grasp_xl import criteria
 from grasp_xl.chromosome import Chromosome
-from grasp_xl.cli import app, main
+from grasp_xl.cli.program import app, main
+from grasp_xl.commands.check import check_file
+from grasp_xl.commands.preparing import given_grasp, prepare
 from grasp_xl.errors import GraspError
 from grasp_xl.grasp import evaluate
 from grasp_xl.rules import Goals, Requirements, Rules, Terms
@@ -359,7 +361,7 @@ def test_reference_card_numbers_are_as_quoted() -> None:
     moments = {}
     for mass in (13796.19, 13796.195):
         space = reference_space(mass)
-        genes = commands.given_grasp(space, ((1, 2, 3), (1,)))
+        genes = given_grasp(space, ((1, 2, 3), (1,)))
         assert genes
         grasp = evaluate(space, rules, genes)
         moments[mass] = f"{grasp.terms.moment:.2f}"
@@ -401,12 +403,12 @@ def test_size_of_the_search_is_that_of_figure_12() -> None:
 
 def test_bracket_sits_on_its_moment_floor_as_the_page_says() -> None:
     path = ROOT / "workbooks" / "bracket.xlsx"
-    floor = commands.check(path, Parameters()).floors.moment
-    task = commands.prepare(read_book(path), Parameters())
+    floor = check_file(path, Parameters()).floors.moment
+    task = prepare(read_book(path), Parameters())
     assert task.benchmark.terms.moment == pytest.approx(floor, rel=1e-12)
     assert f"z = {task.space.part.centroid_mm[2]:.1f} mm" in WHOLE_TEXT
     assert f"below {floor:,.1f} N-mm" in WHOLE_TEXT
-    plan = commands.prepare(read_book(path), Parameters(moment_arm="plan"))
+    plan = prepare(read_book(path), Parameters(moment_arm="plan"))
     assert plan.rules.goals.dropped == {"moment"}
     result = read_book(path.with_name("bracket-result.xlsx")).saved_run()
     designs = [

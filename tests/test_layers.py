@@ -20,7 +20,6 @@ LAYERS = (
     ("task",),
     ("workbook",),
     ("commands",),
-    ("reporting", "show"),
     ("cli",),
 )
 """Modules and packages, from the bottom up; each may import its own layer and those below."""

@@ -20,8 +20,11 @@ from shapely import LineString, Point, Polygon
 from spaces import kind as element_kind
 from spaces import rectangle
 
-from grasp_xl import commands
 from grasp_xl.chromosome import Chromosome
+from grasp_xl.commands.evaluate import evaluate_grasp
+from grasp_xl.commands.output import Output
+from grasp_xl.commands.preparing import prepare
+from grasp_xl.commands.run import run_file
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.stop import Generations
 from grasp_xl.space import OptionSpace, Part
@@ -165,8 +168,8 @@ def rewritten(path: Path, to: Path, pattern: str, replacement: str, sheet: str =
 def sample_result(name: str, folder: Path) -> Path:
     """Run a sample's workbook for a few generations."""
     path = folder / f"{name}-result.xlsx"
-    said, output = Parameters(), commands.Output(path)
-    commands.run(SAMPLES / f"{name}.xlsx", said, output, stop=lambda _: [Generations(500)])
+    said, output = Parameters(), Output(path)
+    run_file(SAMPLES / f"{name}.xlsx", said, output, stop=lambda _: [Generations(500)])
     return path
 
 
@@ -356,7 +359,7 @@ def errors(rows: list[list[CellValue]]) -> list[CellValue]:
 
 def task_of(path: Path) -> Task:
     """Read a saved workbook as a command does."""
-    return commands.prepare(read_book(path), Parameters())
+    return prepare(read_book(path), Parameters())
 
 
 @pytest.fixture
@@ -738,7 +741,7 @@ def listed_genes(office: Office, number: int) -> list[list[CellValue]]:
 
 def judged_user_grasp(path: Path) -> Chromosome:
     """Return the grasp that ``evaluate`` judges where no option names one."""
-    return commands.evaluate_grasp(path, Parameters(), (None, None))[1].chromosome
+    return evaluate_grasp(path, Parameters(), (None, None))[1].chromosome
 
 
 @pytest.mark.parametrize("what", ["the picked rows", "the rows below the list"])
@@ -923,8 +926,8 @@ def wide_book(request, tmp_path_factory: pytest.TempPathFactory) -> Path:
         book[OPTION_SPACE][cell] = request.param
     book.save(folder / "export.xlsx")
     path = folder / "result.xlsx"
-    output = commands.Output(path)
-    commands.run(folder / "export.xlsx", Parameters(), output, stop=lambda _: [Generations(300)])
+    output = Output(path)
+    run_file(folder / "export.xlsx", Parameters(), output, stop=lambda _: [Generations(300)])
     return path
 
 

@@ -18,7 +18,7 @@ from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.table import Table
 
-from grasp_xl import cli
+from grasp_xl.cli.program import main
 
 Edit = Callable[[openpyxl.Workbook], object]
 
@@ -29,7 +29,7 @@ def result(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("result")
     tiny_export(folder / "tiny.xlsx")
     command = ("run", str(folder / "tiny.xlsx"), "--generations", "300", "--quiet")
-    assert cli.main([*command, "--goals", "1000,90000,900,9000"]) == 0
+    assert main([*command, "--goals", "1000,90000,900,9000"]) == 0
     return folder / "tiny-result.xlsx"
 
 
@@ -47,7 +47,7 @@ def office(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Office]:
 
 def run_in_place(book: Path) -> int:
     """Run ten generations."""
-    return cli.main(["run", str(book), "--in-place", "--generations", "10", "--quiet"])
+    return main(["run", str(book), "--in-place", "--generations", "10", "--quiet"])
 
 
 def edit(book: Path, *changes: Edit) -> None:

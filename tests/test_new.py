@@ -12,8 +12,8 @@ import openpyxl
 import pytest
 from bad_workbooks import Value, tiny_export
 
-from grasp_xl import cli
 from grasp_xl.chromosome import Chromosome
+from grasp_xl.cli.program import main
 from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book
@@ -51,7 +51,7 @@ def export(path: Path, change: Mapping[str, Value] | None = None) -> Path:
 
 def new(file: Path, book: Path, *words: str) -> int:
     """Make a workbook."""
-    return cli.main(["new", str(file), "-o", str(book), *words])
+    return main(["new", str(file), "-o", str(book), *words])
 
 
 def cell_of(opened: openpyxl.Workbook, name: str, row: int = 0, column: int = 0) -> Any:
@@ -126,7 +126,7 @@ def test_a_new_workbook_is_ready_for_a_designer_without_a_run(
     assert tuple(opened.sheetnames) == layout.SHEETS
     assert cell_of(opened, "UserChromosome", -2, -1).value.endswith("(program-assigned)")
     assert read_book(path).saved_run().state.generation == 0
-    assert cli.main(["check", str(path), "--quiet"]) == 0
+    assert main(["check", str(path), "--quiet"]) == 0
 
 
 def test_a_program_assigned_grasp_is_nobodys(tmp_path: Path) -> None:
@@ -136,7 +136,7 @@ def test_a_program_assigned_grasp_is_nobodys(tmp_path: Path) -> None:
     assert read_book(path).user_chromosome is None
     type_into(path, {"FoSGoal": 5})
     assert read_book(path).user_chromosome is None
-    assert cli.main(["run", str(path), "--in-place", "--generations", "3", "--quiet"]) == 0
+    assert main(["run", str(path), "--in-place", "--generations", "3", "--quiet"]) == 0
     assert shown(path, "UserChromosome", -2, -1).endswith("(program-assigned)")
     assert genes(read_book(path).user_chromosome) is None
     type_into(path, {"UserChromosome": GENES})
@@ -158,10 +158,10 @@ def test_a_program_assigned_grasp_is_assigned_anew_for_an_edited_option_space(
     fresh.write_bytes(export_workbook(space))
     benchmarks = []
     for file in (path, fresh):
-        assert cli.main(["evaluate", str(file), "--json"]) == 0
+        assert main(["evaluate", str(file), "--json"]) == 0
         benchmarks.append(json.loads(capsys.readouterr().out)["genes"])
     assert benchmarks[0] == benchmarks[1]
-    assert cli.main(["run", str(path), "--in-place", "--generations", "3", "--quiet"]) == 0
+    assert main(["run", str(path), "--in-place", "--generations", "3", "--quiet"]) == 0
     assert shown(path, "UserChromosome", -2, -1).endswith("(program-assigned)")
 
 
@@ -233,7 +233,7 @@ def test_a_stale_workbook_takes_the_next_export(
 ) -> None:
     """No parameter is lost on the way, and genes that fit again are the designer's again."""
     assert new(export(tmp_path / "second.xlsx", FOUR_CUPS), book, "--quiet") == 0
-    assert cli.main(["run", str(book), "--quiet"]) == 3  # an index that is no more
+    assert main(["run", str(book), "--quiet"]) == 3  # an index that is no more
     assert new(export(tmp_path / "third.xlsx", FOUR_CUPS | {"B5": 9001}), book) == 0
     assert "index 6, which is gone" in capsys.readouterr().err
     assert new(export(tmp_path / "fourth.xlsx"), book) == 0

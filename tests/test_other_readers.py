@@ -15,7 +15,9 @@ from live_cases import random_case
 from office import lack
 from python_calamine import CalamineWorkbook
 
-from grasp_xl import commands
+from grasp_xl.commands.new import make_workbook
+from grasp_xl.commands.output import Output
+from grasp_xl.commands.run import run_file
 from grasp_xl.search.stop import Generations
 from grasp_xl.task import Parameters
 from grasp_xl.workbook.reading import open_source, read_option_space
@@ -52,9 +54,9 @@ def books(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     paths = {name: folder / f"{name}.xlsx" for name in BOOKS}
     space = read_option_space(open_source(SAMPLES / "door_frame.xlsx"))
     paths["export"].write_bytes(export_workbook(space))
-    commands.new(paths["export"], Parameters(), commands.Output(paths["new"]))
-    output = commands.Output(paths["result"])
-    commands.run(paths["new"], Parameters(), output, stop=lambda _: [Generations(500)])
+    make_workbook(paths["export"], Parameters(), Output(paths["new"]))
+    output = Output(paths["result"])
+    run_file(paths["new"], Parameters(), output, stop=lambda _: [Generations(500)])
     for name, seed in (("one kind", 3), ("wide", 27)):
         paths[name].write_bytes(random_case(seed).workbook(generations=0))
     return paths

@@ -11,7 +11,7 @@ import openpyxl
 import pytest
 from bad_workbooks import tiny_export
 
-from grasp_xl import cli
+from grasp_xl.cli.program import main
 from grasp_xl.workbook.book import Book, read_book
 from grasp_xl.workbook.designs_sheet import GENE_COLUMN, PICK_ROW
 from grasp_xl.workbook.layout import TABLE_ROW
@@ -36,7 +36,7 @@ def book(result: Path, tmp_path: Path) -> Path:
 
 def run(file: Path, *words: object) -> int:
     """Run three hundred generations."""
-    return cli.main(["run", str(file), "--generations", "300", "--quiet", *map(str, words)])
+    return main(["run", str(file), "--generations", "300", "--quiet", *map(str, words)])
 
 
 def edit(book: Path, change: Callable[[openpyxl.Workbook], object]) -> None:
@@ -107,7 +107,7 @@ def test_one_typed_gene_among_our_formulas_is_carried(
 
 def new(export: str, book: Path) -> int:
     """Make a workbook of an export, into one that exists."""
-    return cli.main(["new", export, "-o", str(book), "--quiet"])
+    return main(["new", export, "-o", str(book), "--quiet"])
 
 
 def test_the_picked_rows_may_be_pasted_as_formulas(book: Path) -> None:
@@ -200,7 +200,7 @@ def test_a_picked_design_with_a_place_that_is_gone_is_named(
     least = tmp_path / "least.xlsx"
     gone = {f"{c}{r}": None for c in "DEF" for r in range(6, 11)}
     tiny_export(least, {"B16": 1, "B11": 0} | gone)  # one cup
-    assert cli.main(["new", str(least), "-o", str(book)]) == 0
+    assert main(["new", str(least), "-o", str(book)]) == 0
     assert "What-if, suction Index 1: found index" in capsys.readouterr().err
 
 
@@ -209,5 +209,5 @@ def test_a_picked_design_that_cannot_be_any_more_is_told(
 ) -> None:
     edits = (typed("DesignPick", 2), typed("SuctionMax", 1), typed("UserChromosome", 1))
     edit(book, lambda opened: [change(opened) for change in edits])
-    assert cli.main(["check", str(book)]) == 0
+    assert main(["check", str(book)]) == 0
     assert "a design that the option space no longer has" in capsys.readouterr().err

@@ -18,7 +18,7 @@ from bad_workbooks import Raw, tiny_export
 from openpyxl.chart import BarChart
 from openpyxl.comments import Comment
 
-from grasp_xl import cli
+from grasp_xl.cli.program import main
 from grasp_xl.workbook.saving import refuse_edited
 from grasp_xl.workbook.stamp import is_untouched
 
@@ -50,7 +50,7 @@ def book(result: Path, tmp_path: Path) -> Path:
 
 def run(file: Path, *words: object) -> int:
     """Run ten generations."""
-    return cli.main(["run", str(file), "--generations", "10", "--quiet", *map(str, words)])
+    return main(["run", str(file), "--generations", "10", "--quiet", *map(str, words)])
 
 
 def files(folder: Path) -> list[str]:
@@ -118,9 +118,9 @@ def test_a_place_that_cannot_hold_a_file_is_refused_before_any_work(
     os.mkfifo(folder / "pipe.xlsx")
     (folder / "readonly").mkdir()
     monkeypatch.setattr(os, "access", lambda path, _: Path(path).name != "readonly")
-    monkeypatch.setattr("grasp_xl.commands.read_book", None)  # nobody may ask for it
+    monkeypatch.setattr(f"grasp_xl.commands.{command}.read_book", None)  # nobody may ask for it
     before = files(folder)
-    assert cli.main([command, str(export), "-o", str(folder / target)]) == 3
+    assert main([command, str(export), "-o", str(folder / target)]) == 3
     told = capsys.readouterr()
     assert found in told.err
     assert "Traceback" not in told.err
@@ -236,7 +236,7 @@ def test_a_bug_in_the_writer_leaves_the_old_file(
     export: Path, book: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     before = book.read_bytes()
-    monkeypatch.setattr("grasp_xl.commands.full_workbook", None)
+    monkeypatch.setattr("grasp_xl.commands.output.full_workbook", None)
     with pytest.raises(TypeError):
         run(export, "-o", book, "--seed", "2")
     assert book.read_bytes() == before
@@ -268,7 +268,7 @@ def test_a_file_that_was_never_ours_needs_force(export: Path, content: bytes) ->
     output = export.with_name("out.xlsx")
     output.write_bytes(content)
     assert run(export, "-o", output) == 3
-    assert cli.main(["new", str(export), "-o", str(output)]) == 3
+    assert main(["new", str(export), "-o", str(output)]) == 3
     assert output.read_bytes() == content
     refuse_edited(output, force=True)
 
@@ -422,7 +422,7 @@ def test_in_place_all_that_would_be_lost_is_named_before_any_search(
             archive.writestr(part, content)
     before = book.read_bytes()
     with monkeypatch.context() as patch:
-        patch.setattr("grasp_xl.cli._stop_rules", None)  # asked for when the search begins
+        patch.setattr("grasp_xl.cli.run._stop_rules", None)  # asked for when the search begins
         assert run(book, "--in-place") == 3
     found = capsys.readouterr().err
     for _, told in (*LOSSES.values(), *PARTS.values()):

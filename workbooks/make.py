@@ -11,7 +11,9 @@ from pathlib import Path
 
 from parts import SamplePart, sample_parts
 
-from grasp_xl import commands
+from grasp_xl.commands.new import make_workbook
+from grasp_xl.commands.output import Output
+from grasp_xl.commands.run import run_file
 from grasp_xl.search.stop import Generations
 from grasp_xl.task import Parameters
 from grasp_xl.workbook.writing import export_workbook
@@ -24,17 +26,17 @@ def make_input(part: SamplePart, folder: Path) -> Path:
         export = Path(exports) / f"{part.name}-export.xlsx"
         export.write_bytes(export_workbook(part.space))
         grasp = (part.designer_suction, part.designer_magnets)
-        commands.new(export, Parameters(), commands.Output(book, force=True), grasp)
+        make_workbook(export, Parameters(), Output(book, force=True), grasp)
     return book
 
 
 def make_result(book: Path) -> Path:
     """Run the thesis's protocol on a workbook and write the result beside it."""
     result = book.with_name(f"{book.stem}-result.xlsx")
-    commands.run(
+    run_file(
         book,
         Parameters(),
-        commands.Output(result, force=True),
+        Output(result, force=True),
         stop=lambda task: [Generations(task.generations)],
     )
     return result

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -10,12 +11,18 @@ from grasp_xl.errors import GraspError, InfeasibleError, InputError, Problem
 from grasp_xl.rules import TERMS, Rules
 
 if TYPE_CHECKING:
-    from grasp_xl.commands import Checked, Solved
+    from grasp_xl.commands.check import Checked
+    from grasp_xl.commands.solve import Solved
     from grasp_xl.grasp import Grasp
     from grasp_xl.search.result import Result
     from grasp_xl.task import Task
 
 Json = dict[str, Any]
+
+
+def print_json(told: Json) -> None:
+    """Print the one JSON object of a command."""
+    print(json.dumps(told, indent=2, allow_nan=False), flush=True)  # noqa: T201 (the product)
 
 
 def grasp_json(grasp: Grasp, rules: Rules) -> Json:

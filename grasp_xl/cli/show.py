@@ -22,7 +22,8 @@ from grasp_xl.rules import TERMS, UNITS, Rules
 from grasp_xl.search.stop import Progress
 
 if TYPE_CHECKING:
-    from grasp_xl.commands import Checked, Solved
+    from grasp_xl.commands.check import Checked
+    from grasp_xl.commands.solve import Solved
     from grasp_xl.search.result import Result
     from grasp_xl.task import Task
 

@@ -1,0 +1,317 @@
+"""What an option may be: its words, its bounds and its help, once for all commands."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+
+import typer
+
+from grasp_xl.errors import UsageError
+from grasp_xl.rules import TERMS, Criterion, MomentArm
+from grasp_xl.rules import moment_arm as parse_arm
+
+if TYPE_CHECKING:
+    from grasp_xl.task import Parameters
+
+T = TypeVar("T")
+
+LEAST_ABOVE_0 = 1e-9
+MOST = 1e9
+MOST_CHILDREN = 50
+MOST_SEED = 2**53
+"""The bounds of the workbook's cells; a test holds them equal."""
+
+MOST_DESIGNS = 1000
+"""Most designs that ``solve`` lists."""
+
+STARTS = ("user", "random")
+
+
+def _refused(option: str, found: str, expected: str, hint: str = "") -> UsageError:
+    message = f"{option}: found {found!r}, expected {expected}."
+    return UsageError(message, where=option, hint=hint or f"Without {option} the default holds")
+
+
+def _number(
+    option: str, expected: str, *, least: float = -MOST, most: float = MOST
+) -> Callable[[str], float]:
+    """Make a parser of numbers within bounds."""
+
+    def parse(text: str) -> float:
+        number = math.nan
+        with suppress(ValueError):
+            number = float(text)
+        if least <= number <= most:
+            return number
+        raise _refused(option, text, expected)
+
+    return parse
+
+
+def _whole(option: str, least: int, most: int = int(MOST)) -> Callable[[str], int]:
+    """Make a parser of whole numbers within bounds; ``5e4`` is one, too."""
+    expected = f"a whole number from {least} to {most:,}"
+
+    def parse(text: str) -> int:
+        number: float = math.nan
+        for read in (float, int):  # int() keeps all digits
+            with suppress(ValueError):
+                number = read(text)
+        if least <= number <= most and number == int(number):
+            return int(number)
+        raise _refused(option, text, expected)
+
+    return parse
+
+
+def _indices(option: str) -> Callable[[str], tuple[int, ...]]:
+    """Make a parser of indices; an empty text names none."""
+
+    def parse(text: str) -> tuple[int, ...]:
+        try:
+            return tuple(int(word) for word in text.split(",")) if text.strip() else ()
+        except ValueError:
+            hint = f"For example {option} 87,64,140"
+            raise _refused(option, text, "whole numbers separated by commas", hint) from None
+
+    return parse
+
+
+def _goals(text: str) -> tuple[float, ...]:
+    expected = "four numbers above 0 separated by commas"
+    goal = _number("--goals", expected, least=LEAST_ABOVE_0)
+    words = text.split(",")
+    if len(words) != len(TERMS):
+        hint = f"Give {', '.join(TERMS)}, for example --goals 105,7933,24.5,1130"
+        raise _refused("--goals", text, expected, hint)
+    return tuple(goal(word) for word in words)
+
+
+def _word(option: str, parse: Callable[[str], T]) -> Callable[[str], T]:
+    """Name the option where a word is refused."""
+
+    def parse_word(text: str) -> T:
+        try:
+            return parse(text)
+        except UsageError as error:
+            raise UsageError(f"{option}: {error.message}", where=option, hint=error.hint) from None
+
+    return parse_word
+
+
+def _start(text: str) -> str:
+    if text in STARTS:
+        return text
+    raise _refused("--start", text, " or ".join(STARTS))
+
+
+def _file(option: str) -> Callable[[str], Path]:
+    """Make a parser of file names; an empty one would mean the folder."""
+
+    def parse(text: str) -> Path:
+        if text.strip():
+            return Path(text)
+        raise _refused(option, text, "the name of a file")
+
+    return parse
+
+
+def _above_0(option: str) -> Callable[[str], float]:
+    return _number(option, f"a number above 0, to {MOST:g}", least=LEAST_ABOVE_0)
+
+
+def _option(name: str, parser: Callable[[str], Any], metavar: str, told: str) -> Any:  # noqa: ANN401
+    return typer.Option(name, parser=parser, metavar=metavar, help=told)
+
+
+File = Annotated[
+    Path, typer.Argument(help="Workbook: an exported option-space sheet, or a full workbook.")
+]
+Book = Annotated[
+    Path,
+    typer.Option("-o", "--output", parser=_file("-o"), metavar="FILE", help="Workbook to write."),
+]
+MaybeBook = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        parser=_file("-o"),
+        metavar="FILE",
+        help="Workbook to write (default NAME-result.xlsx).",
+    ),
+]
+Cups = Annotated[
+    Sequence[int] | None,
+    _option("--cups", _indices("--cups"), "I,J,..", "Suction cup indices, from 1: 87,64,140."),
+]
+Magnets = Annotated[
+    Sequence[int] | None,
+    _option("--magnets", _indices("--magnets"), "I,J,..", "Magnet indices, from 1: 3,8."),
+]
+GoalList = Annotated[
+    Sequence[float] | None,
+    _option("--goals", _goals, "C,M,D,S", "Cost, moment, deviation, structure in $, N-mm, mm, mm."),
+]
+Fos = Annotated[
+    float | None,
+    _option("--fos", _above_0("--fos"), "NUMBER", "Least factor of safety (default 3)."),
+]
+Clearance = Annotated[
+    float | None,
+    _option(
+        "--clearance",
+        _above_0("--clearance"),
+        "MM",
+        "Least distance of two elements (default: the largest diameter, else 46).",
+    ),
+]
+Density = Annotated[
+    float | None,
+    _option(
+        "--density-ratio",
+        _number("--density-ratio", f"a number from 0 to {MOST:g}", least=0),
+        "NUMBER",
+        "Main truss over branch density (default 2.5).",
+    ),
+]
+CriterionName = Annotated[
+    Criterion | None,
+    _option(
+        "--criterion",
+        _word("--criterion", Criterion.parse),
+        "WORD",
+        "divergence, cost, moment, deviation, structure, or some joined by + (default divergence).",
+    ),
+]
+Arm = Annotated[
+    MomentArm | None,
+    _option(
+        "--moment-arm",
+        _word("--moment-arm", parse_arm),
+        "3d|plan",
+        "Moment in space or in plan (default 3d).",
+    ),
+]
+Seed = Annotated[
+    int | None,
+    _option(
+        "--seed", _whole("--seed", 0, MOST_SEED), "N", "Seed of the random stream (default 1)."
+    ),
+]
+GenerationCount = Annotated[
+    int | None,
+    _option("--generations", _whole("--generations", 0), "N", "Generations (default 50000)."),
+]
+Children = Annotated[
+    int | None,
+    _option(
+        "--children", _whole("--children", 2, MOST_CHILDREN), "N", "Children each (default 5)."
+    ),
+]
+OneIn = Annotated[
+    float | None,
+    _option(
+        "--one-in",
+        _number("--one-in", f"a number from 1 to {MOST:g}", least=1),
+        "N",
+        "n of the 1-in-n mutation probability (default 4).",
+    ),
+]
+NoElitism = Annotated[bool, typer.Option("--no-elitism", help="Mutate child 1 too.")]
+Start = Annotated[
+    str | None,
+    _option("--start", _start, "user|random", "The initial chromosome (default user)."),
+]
+StallCount = Annotated[
+    int | None,
+    _option("--stall", _whole("--stall", 1), "N", "Stop after so many generations without gain."),
+]
+TargetValue = Annotated[
+    float | None,
+    _option(
+        "--target",
+        _number("--target", f"a number of at most {MOST:g}"),
+        "VALUE",
+        "Stop when the best value is at or below this.",
+    ),
+]
+Seconds = Annotated[
+    float | None,
+    _option(
+        "--time-limit",
+        _number("--time-limit", f"a number from 0 to {MOST:g}", least=0),
+        "SECONDS",
+        "Stop after so many seconds of search.",
+    ),
+]
+DesignCount = Annotated[
+    int,
+    _option("--top", _whole("--top", 1, MOST_DESIGNS), "K", "List the K best grasps."),
+]
+Gap = Annotated[
+    float,
+    _option(
+        "--gap",
+        _number("--gap", f"a number from 0 to {MOST:g}", least=0),
+        "NUMBER",
+        "Stop within this fraction of the best value; 0 proves it.",
+    ),
+]
+MeetGoals = Annotated[bool, typer.Option("--meet-goals", help="Only grasps that meet all goals.")]
+LeastElements = Annotated[
+    int,
+    _option(
+        "--min-elements",
+        _whole("--min-elements", 1),
+        "N",
+        "Only grasps of N or more elements.",
+    ),
+]
+GoOn = Annotated[
+    bool, typer.Option("--continue", help="Go on from the run that the workbook holds.")
+]
+History = Annotated[
+    Path | None,
+    _option(
+        "--history",
+        _file("--history"),
+        "FILE",
+        "Write every change of the fittest to this CSV file.",
+    ),
+]
+InPlace = Annotated[bool, typer.Option("--in-place", help="Replace the input workbook.")]
+Force = Annotated[
+    bool, typer.Option("--force", help="Overwrite what was edited; lose what cannot be kept.")
+]
+AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on standard output.")]
+Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors.")]
+
+
+def parameters(
+    goals: Sequence[float] | None,
+    fos: float | None,
+    clearance: float | None,
+    density_ratio: float | None,
+    criterion: Criterion | None,
+    moment_arm: MomentArm | None,
+    seed: int | None,
+    **of_run: Any,  # noqa: ANN401 (other fields of Parameters)
+) -> Parameters:
+    """Return what the options say; a name of ``Parameters`` each, None where none was given."""
+    from grasp_xl.task import NO_GOALS, Parameters
+
+    return Parameters(
+        goals=tuple(goals) if goals else NO_GOALS,
+        fos=fos,
+        clearance_mm=clearance,
+        density_ratio=density_ratio,
+        criterion=criterion,
+        moment_arm=moment_arm,
+        seed=seed,
+        **of_run,
+    )

@@ -1,0 +1,108 @@
+"""What a workbook that is replaced holds of the designer's, and of its own run."""
+
+import re
+from contextlib import suppress
+from dataclasses import replace
+
+import numpy as np
+
+from grasp_xl.commands.output import Output, not_begun, now, written_book
+from grasp_xl.errors import InfeasibleError, InputError
+from grasp_xl.search.mutation import random_chromosome
+from grasp_xl.space import ElementKind
+from grasp_xl.task import Task, settle
+from grasp_xl.workbook import layout
+from grasp_xl.workbook.book import Book
+from grasp_xl.workbook.carrying import is_usable
+from grasp_xl.workbook.cells import Source
+from grasp_xl.workbook.losses import Written, filled_cells, refuse_losses
+from grasp_xl.workbook.package import Package
+from grasp_xl.workbook.reading_run import (
+    SavedRun,
+    largest_listed,
+    refuse_other_inputs,
+    written_children,
+)
+from grasp_xl.workbook.writing import export_workbook
+
+
+def refuse_to_lose(output: Output, previous: Book) -> None:
+    """Refuse to replace a workbook that holds something which is not ours, before any search."""
+    if not (output.force or previous.is_untouched):
+        refuse_losses(output.path, previous.source, _as_written(previous))
+
+
+def _as_written(book: Book) -> Written:
+    """Write a workbook again as it was, with its own cards and results, to know what is ours."""
+    if layout.USER_BLOCK.name not in book.source.names:  # an export
+        content = export_workbook(book.space)
+        cells = filled_cells(Source(Package("export", content)), layout.OPTION_SPACE)
+        return Written(content, {layout.OPTION_SPACE: cells}, same_inputs=False)
+    task = _task_of_its_run(book)
+    same_inputs = task is not None
+    was = replace(book, what_if=None) if task else _of_its_sizes(book)
+    if task is None:
+        any_grasp = random_chromosome(was.space, np.random.default_rng(0))
+        task = settle(was.space, was.parameters, any_grasp)
+    shown = was.shown_run()
+    result = not_begun(task, shown.state if shown else None)
+    if shown:
+        children = written_children(book.source, task.space) or shown.children
+        result = replace(result, matrix=shown.matrix, children=children)
+    return Written(*written_book(task, result, was, now()), same_inputs)
+
+
+def _task_of_its_run(book: Book) -> Task | None:
+    """Return the task of the run that a workbook holds; None if inputs or lists changed since."""
+    user = book.user_chromosome
+    if user is None or is_usable(user, book.space):
+        with suppress(InfeasibleError, InputError):
+            task = settle(book.space, book.parameters, user)
+            saved_run_of(book, task)
+            return task
+    return None
+
+
+def _of_its_sizes(book: Book) -> Book:
+    """Return a book with the sizes of its cards and lists, whatever sizes it asks for now."""
+    names = book.source.names
+    children = sum(re.fullmatch(r"Child\d+", name) is not None for name in names)
+    slots = names[layout.USER_BLOCK.name].columns - 1
+    kinds = (
+        replace(
+            _with_places(kind, largest_listed(book.source, kind.name)),
+            count_min=min(kind.count_min, slots),
+            count_max=slots,
+        )
+        for kind in book.space.kinds
+    )
+    return replace(
+        book,
+        space=replace(book.space, kinds=tuple(kinds)),
+        parameters=replace(book.parameters, children=max(2, children)),
+        user_chromosome=None,
+        what_if=None,
+        picked=None,
+    )
+
+
+def _with_places(kind: ElementKind, number: int) -> ElementKind:
+    """Return a kind with so many places at least, as it had when its lists were written."""
+    gone = np.zeros((max(0, number - kind.total), 3))
+    overlap = kind.overlap
+    if overlap is not None:
+        overlap = np.concatenate([overlap, np.full(len(gone), np.nan)])
+    footprints = np.vstack([kind.footprints_mm, gone])
+    return replace(kind, footprints_mm=footprints, overlap=overlap)
+
+
+def saved_run_of(book: Book, task: Task) -> SavedRun:
+    """Return the run that a workbook holds.
+
+    Raises
+    ------
+    InputError
+        If it is not a run of this task.
+    """
+    refuse_other_inputs(book.source, task)
+    return book.saved_run()

@@ -1,0 +1,63 @@
+"""Where results go, and the workbook that is written there."""
+
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from grasp_xl.search.genetic import search
+from grasp_xl.search.result import Result, State
+from grasp_xl.search.stop import Generations
+from grasp_xl.task import Task
+from grasp_xl.workbook.book import Book
+from grasp_xl.workbook.carrying import is_usable
+from grasp_xl.workbook.run_log import Origin
+from grasp_xl.workbook.writing import Filled, full_workbook
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """Where results go, and what may be overwritten for them.
+
+    Parameters
+    ----------
+    path : Path
+        Workbook.
+    in_place : bool
+        Whether it is the input.
+    force : bool
+        Overwrite what was edited, lose what cannot be carried over.
+    history : Path, optional
+        CSV file with every change of the fittest.
+    """
+
+    path: Path
+    in_place: bool = False
+    force: bool = False
+    history: Path | None = None
+
+
+def not_begun(task: Task, state: State | None = None) -> Result:
+    """Return the result of no generation at all, or of none after a state."""
+    stop = [Generations(0)]
+    benchmark = task.benchmark.chromosome
+    return search(task.space, task.rules, task.settings, benchmark, stop, state=state)
+
+
+def written_book(task: Task, result: Result, book: Book, began: datetime) -> tuple[bytes, Filled]:
+    """Return the full workbook of a task and its result, and which of its cells are filled."""
+    source = book.source.package
+    name = Path(source.name).name.encode(errors="backslashreplace").decode()
+    user = book.user_chromosome
+    return full_workbook(
+        task,
+        result,
+        Origin(name, source.sha256, began, now()),
+        what_if=book.what_if,
+        picked=book.picked,
+        stale_user=user if user and not is_usable(user, task.space) else None,
+    )
+
+
+def now() -> datetime:
+    """Return the local time, which is what a workbook shows."""
+    return datetime.now()  # noqa: DTZ005

@@ -1,0 +1,92 @@
+"""How ``run`` searches, and what it writes."""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from grasp_xl.commands.keeping import refuse_to_lose, saved_run_of
+from grasp_xl.commands.output import Output, now, written_book
+from grasp_xl.commands.preparing import Active, prepare, refuse_infeasible, with_floor_warnings
+from grasp_xl.errors import Problem
+from grasp_xl.search.floors import floors
+from grasp_xl.search.genetic import OnProgress, search
+from grasp_xl.search.result import Result, State
+from grasp_xl.search.stop import StopRule
+from grasp_xl.task import Parameters, Task
+from grasp_xl.workbook import layout
+from grasp_xl.workbook.book import read_book
+from grasp_xl.workbook.saving import (
+    check_place,
+    check_target,
+    refuse_edited,
+    save,
+)
+
+
+def run_file(
+    path: Path,
+    options: Parameters,
+    output: Output,
+    *,
+    grasp: Active = (None, None),
+    stop: Callable[[Task], Sequence[StopRule]],
+    go_on: bool = False,
+    on_progress: OnProgress | None = None,
+) -> tuple[Task, Result, float]:
+    """Run the genetic search on a file and write the workbook.
+
+    Parameters
+    ----------
+    path, options, output
+    grasp : Active
+        The user-defined grasp, where options name it.
+    stop : callable
+        Makes the stop rules of a settled task, when the search begins.
+    go_on : bool
+        Go on from the run that the workbook holds.
+    on_progress : callable, optional
+
+    Returns
+    -------
+    Task, Result, float
+        And the seconds that all took.
+    """
+    clock, began = time.perf_counter(), now()
+    check_target(output.path, path, in_place=output.in_place, force=output.force)
+    if not output.in_place:
+        refuse_edited(output.path, force=output.force)
+    if output.history:
+        check_place(output.history, ".csv", force=output.force, option="--history")
+    book = read_book(path)
+    task = prepare(book, options, grasp)
+    saved = saved_run_of(book, task) if go_on else None
+    task = replace(task, warnings=(*task.warnings, *(_gaps(saved.state) if saved else ())))
+    refuse_infeasible(task)
+    task = with_floor_warnings(task, floors(task.space, task.rules.requirements))
+    if output.in_place:
+        refuse_to_lose(output, book)
+    result = search(
+        task.space,
+        task.rules,
+        task.settings,
+        task.benchmark.chromosome,
+        stop(task),
+        state=saved.state if saved else None,
+        on_progress=on_progress,
+    )
+    if saved and result.state.generation == saved.state.generation:
+        result = replace(result, matrix=saved.matrix, children=saved.children)
+    save(written_book(task, result, book, began)[0], output.path)
+    if output.history:
+        save(result.history().to_csv(index=False).encode(), output.history)
+    return task, result, time.perf_counter() - clock
+
+
+def _gaps(state: State) -> list[Problem]:
+    """Warn where the workbook could not list the whole history of its run."""
+    if state.complete_from == 1:
+        return []
+    found = f"the changes from generation {state.complete_from:,} on"
+    hint = "the workbook has no room for the earlier ones, so a --history file begins there, too"
+    return [Problem(layout.HISTORY, found, "those from generation 1 on", hint)]
