@@ -31,6 +31,17 @@ def rounded_up(number: float, digits: int) -> float:
     return _rounded(number * (1 - RELATIVE), digits, math.ceil)
 
 
+def percent(fraction: float) -> str:
+    """Return a fraction as text, with three significant digits.
+
+    Examples
+    --------
+    >>> percent(0.03141), percent(0.0), percent(1.5)
+    ('3.14 %', '0 %', '150 %')
+    """
+    return f"{100 * fraction:.3g} %"
+
+
 def _rounded(number: float, digits: int, whole: Callable[[float], int]) -> float:
     places = digits - 1 - math.floor(math.log10(number))
     unit = 10.0**-places

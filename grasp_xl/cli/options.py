@@ -240,6 +240,29 @@ TargetValue = Annotated[
         "Stop when the best value is at or below this.",
     ),
 ]
+MaybeSolved = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        parser=_file("-o"),
+        metavar="FILE",
+        help="Workbook to write (default none).",
+    ),
+]
+Prove = Annotated[
+    bool,
+    typer.Option("--prove/--no-prove", help="Find and prove the best grasp of all afterwards."),
+]
+ProveSeconds = Annotated[
+    float,
+    _option(
+        "--prove-limit",
+        _number("--prove-limit", f"a number from 0 to {MOST:g}", least=0),
+        "SECONDS",
+        "Longest search for that proof.",
+    ),
+]
 Seconds = Annotated[
     float | None,
     _option(

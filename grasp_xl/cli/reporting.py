@@ -12,9 +12,9 @@ from grasp_xl.rules import TERMS, Rules
 
 if TYPE_CHECKING:
     from grasp_xl.commands.check import Checked
+    from grasp_xl.commands.run import Ran
     from grasp_xl.commands.solve import Solved
     from grasp_xl.grasp import Grasp
-    from grasp_xl.search.result import Result
     from grasp_xl.task import Task
 
 Json = dict[str, Any]
@@ -55,15 +55,16 @@ def goals_json(rules: Rules) -> Json:
     return {"fos": rules.requirements.fos, **shown}
 
 
-def run_json(result: Result, seconds: float, output: str) -> Json:
-    """Return the outcome of a genetic run."""
+def run_json(ran: Ran, output: str) -> Json:
+    """Return the outcome of a genetic run, and of the proof after it."""
+    result = ran.result
     rules = result.rules
     return {
         "best": grasp_json(result.best, rules) if result.best else None,
-        "proved": None,
+        "proved": solve_json(ran.solved) if ran.solved else None,
         "benchmark": grasp_json(result.benchmark, rules),
         "goals": goals_json(rules),
-        "seconds": seconds,
+        "seconds": ran.seconds,
         "generations": result.state.generation,
         "evaluations": result.state.evaluations,
         "seed": result.settings.seed,
@@ -83,7 +84,7 @@ def solve_json(solved: Solved) -> Json:
         "floors": solved.floors._asdict() if solved.floors else None,
         "goals": goals_json(rules),
         "seconds": solved.seconds,
-        "output": None,
+        "output": str(solved.output) if solved.output else None,
         **(error_json(solved.obstacle) if solved.obstacle else {}),
     }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import typer
@@ -26,6 +27,8 @@ from grasp_xl.cli.options import (
     MaybeBook,
     NoElitism,
     OneIn,
+    Prove,
+    ProveSeconds,
     Quiet,
     Seconds,
     Seed,
@@ -37,6 +40,8 @@ from grasp_xl.cli.options import (
 from grasp_xl.errors import UsageError
 
 if TYPE_CHECKING:
+    from grasp_xl.commands.solve import Solved
+    from grasp_xl.search.result import Result
     from grasp_xl.search.stop import StopRule
     from grasp_xl.task import Task
 
@@ -61,6 +66,8 @@ def run(
     stall: StallCount = None,
     target: TargetValue = None,
     time_limit: Seconds = None,
+    prove: Prove = True,
+    prove_limit: ProveSeconds = 10.0,
     go_on: GoOn = False,
     history: History = None,
     in_place: InPlace = False,
@@ -70,11 +77,14 @@ def run(
 ) -> None:
     """Find good grasps with the thesis's genetic algorithm, and write the workbook.
 
+    Then the best grasp of all is proved, and shown beside them.
+
     Example: grasp-xl run workbooks/bracket.xlsx -o result.xlsx --seed 1
     """
     from grasp_xl.cli import reporting, show
     from grasp_xl.commands.output import Output
     from grasp_xl.commands.run import run_file
+    from grasp_xl.commands.solve import prove_run
     from grasp_xl.search.stop import stop_on_ctrl_c
 
     if in_place and output:
@@ -101,7 +111,18 @@ def run(
             bar.begin(task.generations, time_limit)
             return [interrupt, *_stop_rules(task, stall, target, time_limit)]
 
-        task, result, seconds = run_file(
+        def proved(task: Task, result: Result) -> Solved | None:
+            bar.end()
+            if not prove or interrupt.asked:
+                return None
+            show.compile_notice(quiet=quiet, module="exact", seconds=20)
+            with suppress(KeyboardInterrupt), show.proof_progress(quiet=quiet) as line:
+                return prove_run(
+                    task, result, path, prove_limit, interrupt=interrupt, on_progress=line
+                )
+            return None
+
+        ran = run_file(
             file,
             options,
             Output(path, in_place, force, history),
@@ -109,14 +130,15 @@ def run(
             stop=stop,
             go_on=go_on,
             on_progress=bar,
+            prove=proved,
         )
     if not quiet:
-        show.warnings(task.warnings)
+        show.warnings(ran.task.warnings)
     if as_json:
-        reporting.print_json(reporting.run_json(result, seconds, str(path)))
+        reporting.print_json(reporting.run_json(ran, str(path)))
     elif not quiet:
-        show.run(task, result, seconds, path)
-    if result.stop_reason == "interrupted":
+        show.run(ran, path)
+    if interrupt.asked:
         raise typer.Exit(130)
 
 

@@ -18,14 +18,15 @@ from rich.table import Table
 from grasp_xl.compiled import is_compiled
 from grasp_xl.errors import Problem
 from grasp_xl.grasp import Grasp
-from grasp_xl.rules import TERMS, UNITS, Rules
+from grasp_xl.rounding import percent
+from grasp_xl.rules import SLACK, TERMS, UNITS, Rules
 from grasp_xl.search.stop import Progress
 
 if TYPE_CHECKING:
     from grasp_xl.commands.check import Checked
+    from grasp_xl.commands.run import Ran
     from grasp_xl.commands.solve import Solved
     from grasp_xl.search.result import Result
-    from grasp_xl.task import Task
 
 REFRESH_SECONDS = 0.2
 
@@ -96,6 +97,11 @@ class SearchBar:
             refresh=True,
         )
 
+    def end(self) -> None:
+        """Take the bar away, so that another can be shown."""
+        if self._bars:
+            self._bars.stop()
+
     def _told(self, now: Progress, seconds: float, done: int) -> str:
         told = f"Generation {now.generation:,}, best {now.best_value:.6g}"
         if not done:
@@ -139,7 +145,8 @@ class ProofLine:
             self._bars.add_task("Proving", total=None)
         told = f"none below {bound:.6g}, "
         if best is not None:
-            told += f"best {best:.6g}, gap {percent(best, bound)}, "
+            gap = percent((best - bound) / best if best > 0 else 0.0)
+            told += f"best {best:.6g}, gap {gap}, "
         told += f"{clock - self._began:.0f} s"
         self._bars.update(self._bars.task_ids[0], description=told, refresh=True)
 
@@ -153,11 +160,6 @@ def proof_progress(*, quiet: bool) -> Iterator[ProofLine]:
     columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False))
     with Bars(*columns, console=_err, auto_refresh=False, transient=True) as bars:
         yield ProofLine(bars)
-
-
-def percent(best: float, bound: float) -> str:
-    """Return the gap of a best value above a bound, in percent of the value."""
-    return f"{100 * (best - bound) / best if best > 0 else 0.0:.3g} %"
 
 
 def grasps(columns: Sequence[tuple[str, Grasp]], rules: Rules) -> None:
@@ -180,11 +182,14 @@ def grasps(columns: Sequence[tuple[str, Grasp]], rules: Rules) -> None:
     _out.print(table)
 
 
-def run(task: Task, result: Result, seconds: float, path: Path) -> None:
-    """Print the outcome of a genetic run."""
+def run(ran: Ran, path: Path) -> None:
+    """Print the outcome of a genetic run, and of the proof after it."""
+    task, result, solved = ran.task, ran.result, ran.solved
     rows = [("Benchmark", result.benchmark)]
     if result.best:
         rows.append(("Best", result.best))
+    if solved and solved.shown.grasp:
+        rows.append((solved.shown.label, solved.shown.grasp))
     grasps(rows, task.rules)
     state = result.state
     if result.best:
@@ -194,10 +199,23 @@ def run(task: Task, result: Result, seconds: float, path: Path) -> None:
         )
     elif state.generation:
         line("No grasp met FoS and clearance yet: run more generations, or another seed.")
+    if solved:
+        line(f"{proof_sentence(solved)} {_compared(result, solved)}")
     line(
         f"{state.generation:,} generations in {result.seconds:.2f} s "
-        f"({seconds:.2f} s in all), stopped by {result.stop_reason}. Wrote {path}."
+        f"({ran.seconds:.2f} s in all), stopped by {result.stop_reason}. Wrote {path}."
     )
+
+
+def _compared(result: Result, solved: Solved) -> str:
+    """Say how far the best of a genetic run is from the best grasp that is known."""
+    best, known = result.best, solved.shown.grasp
+    if best is None or known is None:
+        return "The genetic run found none." if known else ""
+    if best.value <= known.value + SLACK * abs(known.value):
+        return "The genetic run found a grasp as good."
+    above = f", {percent(best.value / known.value - 1)}" if known.value > 0 else ""
+    return f"The best of the genetic run is {best.value - known.value:,.6g}{above} above it."
 
 
 def solve(solved: Solved) -> None:
@@ -224,6 +242,8 @@ def solve(solved: Solved) -> None:
         table.add_row("floor", "", "", *(f"{floor:,.6g}" for floor in solved.floors), "")
     _out.print(table)
     line(proof_sentence(solved))
+    if solved.output:
+        line(f"Wrote {solved.output}.")
 
 
 def proof_sentence(solved: Solved) -> str:
@@ -240,19 +260,11 @@ def proof_sentence(solved: Solved) -> str:
         if these < settings.top:
             ranked = f"there are only {these} different grasps, and "
         return f"Proved: {ranked}{none} ({proof.seconds:.2f} s)."
-    if solved.interrupted:
-        stopped = "interrupted"
-    elif proof.seconds >= settings.time_limit_s:
-        stopped = "stopped at the time limit"
-    elif proof.gap is not None and proof.gap <= settings.gap:
-        stopped = "stopped at the gap asked for"
-    else:
-        stopped = "stopped as the memory for open branches is full"
-    if not proof.designs:
-        return f"No grasp found yet; {none}; {stopped} ({proof.seconds:.2f} s)."
+    ended = f"{solved.ended} ({proof.seconds:.2f} s)"
+    if proof.gap is None:
+        return f"No grasp found yet; {none}; {ended}."
     best = proof.designs[0].value
-    gap = percent(best, proof.bound)
-    return f"Best found {best:,.6g}{unit}; {none} (gap {gap}); {stopped} ({proof.seconds:.2f} s)."
+    return f"Best found {best:,.6g}{unit}; {none} (gap {percent(proof.gap)}); {ended}."
 
 
 def check(checked: Checked) -> None:

@@ -14,10 +14,12 @@ from grasp_xl.cli.options import (
     Density,
     DesignCount,
     File,
+    Force,
     Fos,
     Gap,
     GoalList,
     LeastElements,
+    MaybeSolved,
     MeetGoals,
     Quiet,
     Seconds,
@@ -29,6 +31,7 @@ from grasp_xl.errors import InfeasibleError
 
 def solve(
     file: File,
+    output: MaybeSolved = None,
     time_limit: Seconds = None,
     top: DesignCount = 1,
     gap: Gap = 0.0,
@@ -41,14 +44,18 @@ def solve(
     criterion: CriterionName = None,
     moment_arm: Arm = None,
     seed: Seed = None,
+    force: Force = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
-    """Find the best grasp of all, and prove that there is no better one; writes no file.
+    """Find the best grasp of all, and prove that there is no better one.
+
+    With -o, the workbook shows it on a card of its own; without, no file is written.
 
     Example: grasp-xl solve workbooks/door_frame.xlsx --top 3
     """
     from grasp_xl.cli import reporting, show
+    from grasp_xl.commands.output import Output
     from grasp_xl.commands.solve import solve_file
     from grasp_xl.search.exact import ExactSettings
     from grasp_xl.search.stop import stop_on_ctrl_c
@@ -59,7 +66,14 @@ def solve(
     show.compile_notice(quiet=quiet, module="exact", seconds=20)
     try:
         with stop_on_ctrl_c() as interrupt, show.proof_progress(quiet=quiet) as shown:
-            solved = solve_file(file, options, settings, interrupt=interrupt, on_progress=shown)
+            solved = solve_file(
+                file,
+                options,
+                settings,
+                output=Output(output, force=force) if output else None,
+                interrupt=interrupt,
+                on_progress=shown,
+            )
     except InfeasibleError as error:
         if not as_json:
             raise

@@ -21,6 +21,7 @@ from grasp_xl.workbook.reading_run import (
     SavedRun,
     largest_listed,
     refuse_other_inputs,
+    shown_proof,
     written_children,
 )
 from grasp_xl.workbook.writing import export_workbook
@@ -49,7 +50,8 @@ def _as_written(book: Book) -> Written:
     if shown:
         children = written_children(book.source, task.space) or shown.children
         result = replace(result, matrix=shown.matrix, children=children)
-    return Written(*written_book(task, result, was, now()), same_inputs)
+    proved = shown_proof(book.source, task)
+    return Written(*written_book(task, result, was, now(), proved), same_inputs)
 
 
 def _task_of_its_run(book: Book) -> Task | None:

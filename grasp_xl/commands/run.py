@@ -2,12 +2,13 @@
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grasp_xl.commands.keeping import refuse_to_lose, saved_run_of
 from grasp_xl.commands.output import Output, now, written_book
 from grasp_xl.commands.preparing import Active, prepare, refuse_infeasible, with_floor_warnings
+from grasp_xl.commands.solve import Solved
 from grasp_xl.errors import Problem
 from grasp_xl.search.floors import floors
 from grasp_xl.search.genetic import OnProgress, search
@@ -24,6 +25,27 @@ from grasp_xl.workbook.saving import (
 )
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Ran:
+    """What ``run`` did.
+
+    Parameters
+    ----------
+    task : Task
+    result : Result
+        Of the genetic search.
+    solved : Solved or None
+        What the exact search proved afterwards; None where it was not asked.
+    seconds : float
+        All that it took.
+    """
+
+    task: Task
+    result: Result
+    solved: Solved | None
+    seconds: float
+
+
 def run_file(
     path: Path,
     options: Parameters,
@@ -33,8 +55,9 @@ def run_file(
     stop: Callable[[Task], Sequence[StopRule]],
     go_on: bool = False,
     on_progress: OnProgress | None = None,
-) -> tuple[Task, Result, float]:
-    """Run the genetic search on a file and write the workbook.
+    prove: Callable[[Task, Result], Solved | None] = lambda task, result: None,  # noqa: ARG005
+) -> Ran:
+    """Run the genetic search on a file, prove how good it is, and write the workbook.
 
     Parameters
     ----------
@@ -46,11 +69,8 @@ def run_file(
     go_on : bool
         Go on from the run that the workbook holds.
     on_progress : callable, optional
-
-    Returns
-    -------
-    Task, Result, float
-        And the seconds that all took.
+    prove : callable, optional
+        Given the run, says what the exact search proved; None where it was not asked.
     """
     clock, began = time.perf_counter(), now()
     check_target(output.path, path, in_place=output.in_place, force=output.force)
@@ -77,10 +97,12 @@ def run_file(
     )
     if saved and result.state.generation == saved.state.generation:
         result = replace(result, matrix=saved.matrix, children=saved.children)
-    save(written_book(task, result, book, began)[0], output.path)
+    solved = prove(task, result)
+    shown = solved.shown if solved else None
+    save(written_book(task, result, book, began, shown)[0], output.path)
     if output.history:
         save(result.history().to_csv(index=False).encode(), output.history)
-    return task, result, time.perf_counter() - clock
+    return Ran(task, result, solved, time.perf_counter() - clock)
 
 
 def _gaps(state: State) -> list[Problem]:

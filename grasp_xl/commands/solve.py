@@ -1,21 +1,28 @@
-"""How ``solve`` finds the best grasp of all, and proves it."""
+"""How ``solve`` and ``run`` find the best grasp of all, and prove it."""
 
 import time
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from grasp_xl.commands.keeping import saved_run_of
+from grasp_xl.commands.output import Output, not_begun, now, resumed, written_book
 from grasp_xl.commands.preparing import prepare, with_floor_warnings
-from grasp_xl.errors import InfeasibleError
+from grasp_xl.errors import InfeasibleError, InputError
 from grasp_xl.rules import Terms
 from grasp_xl.search.exact import ExactSettings, OnBound, Proof
 from grasp_xl.search.exact import solve as prove
+from grasp_xl.search.floors import floors
 from grasp_xl.search.obstacles import any_feasible
 from grasp_xl.search.proven_floors import proven_floors
+from grasp_xl.search.result import Result
 from grasp_xl.search.stop import Interrupt
 from grasp_xl.search.unmet_goals import why_none_meets_all
 from grasp_xl.search.warm import load_exact_search
 from grasp_xl.task import Parameters, Task
-from grasp_xl.workbook.book import read_book
+from grasp_xl.workbook.book import Book, read_book
+from grasp_xl.workbook.proved import Proved, among
+from grasp_xl.workbook.saving import check_target, refuse_edited, save
 
 FLOOR_SECONDS = 5.0
 """Longest search of ``solve`` for the floors, after the search for the best grasp."""
@@ -23,7 +30,7 @@ FLOOR_SECONDS = 5.0
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Solved:
-    """What ``solve`` found and proved.
+    """What the exact search of a task found and proved.
 
     Parameters
     ----------
@@ -37,6 +44,8 @@ class Solved:
     interrupted : bool
     obstacle : InfeasibleError or None
         Why there is no grasp, where that is proved.
+    output : Path or None
+        Workbook that was written.
     """
 
     task: Task
@@ -46,6 +55,26 @@ class Solved:
     seconds: float
     interrupted: bool
     obstacle: InfeasibleError | None = None
+    output: Path | None = None
+
+    @property
+    def ended(self) -> str:
+        """Why the search ended, in words."""
+        proof, settings = self.proof, self.settings
+        if proof.status in ("optimal", "infeasible"):
+            return "all is proved"
+        if self.interrupted:
+            return "interrupted"
+        if proof.seconds >= settings.time_limit_s:
+            return "stopped at the time limit"
+        if proof.gap is not None and proof.gap <= settings.gap:
+            return "stopped at the gap asked for"
+        return "stopped as the memory for open branches is full"
+
+    @property
+    def shown(self) -> Proved:
+        """What the workbook shows of it."""
+        return Proved(self.proof, among(self.settings), self.ended)
 
 
 def solve_file(
@@ -53,16 +82,21 @@ def solve_file(
     options: Parameters,
     settings: ExactSettings,
     *,
+    output: Output | None = None,
     interrupt: Interrupt | None = None,
     on_progress: OnBound | None = None,
 ) -> Solved:
     """Find the best grasps of a file, with proof, and the floors of its criteria.
+
+    The workbook also shows the run that the file holds, if its inputs are the same.
 
     Parameters
     ----------
     path, options
     settings : ExactSettings
         The time limit is that of the search and of the floors together.
+    output : Output, optional
+        Workbook to write where there is no obstacle.
     interrupt : Interrupt, optional
         Once asked, it ends all searches with what is proved by then.
     on_progress : callable, optional
@@ -72,9 +106,13 @@ def solve_file(
     InfeasibleError
         If no grasp can serve as the benchmark.
     """
-    clock = time.perf_counter()
+    clock, started = time.perf_counter(), now()
+    if output:
+        check_target(output.path, path, in_place=False, force=output.force)
+        refuse_edited(output.path, force=output.force)
     ask = interrupt or Interrupt()
-    task = prepare(read_book(path), options)
+    book = read_book(path)
+    task = prepare(book, options)
     space, rules = task.space, task.rules
     known = [task.benchmark.chromosome] if task.benchmark.feasible else []
     load_exact_search()
@@ -94,7 +132,62 @@ def solve_file(
         task = with_floor_warnings(task, least)
         if proof.status == "infeasible":
             obstacle = why_none_meets_all(space, rules, least, settings.min_elements, stop)
-    return Solved(task, settings, proof, least, time.perf_counter() - clock, ask.asked, obstacle)
+    seconds = time.perf_counter() - clock
+    solved = Solved(task, settings, proof, least, seconds, ask.asked, obstacle)
+    if output is None or obstacle:
+        return solved
+    content, _ = written_book(task, _held_run(book, task), book, started, solved.shown)
+    save(content, output.path)
+    return replace(solved, output=output.path)
+
+
+def prove_run(
+    task: Task,
+    result: Result,
+    output: Path,
+    time_limit_s: float,
+    *,
+    interrupt: Interrupt,
+    on_progress: OnBound | None = None,
+) -> Solved:
+    """Prove how good the best grasp of a genetic run is, and find the best of all.
+
+    Its floors are those that need no search.
+
+    Parameters
+    ----------
+    task, result
+    output : Path
+        Workbook that will show it.
+    time_limit_s : float
+    interrupt : Interrupt
+        Once asked, it ends the search with what is proved by then.
+    on_progress : callable, optional
+    """
+    clock = time.perf_counter()
+    load_exact_search()
+    settings = ExactSettings(time_limit_s)
+    known = [
+        grasp.chromosome for grasp in (result.best, task.benchmark) if grasp and grasp.feasible
+    ]
+    proof = prove(
+        task.space,
+        task.rules,
+        settings,
+        known=known,
+        stop=lambda: interrupt.asked,
+        on_progress=on_progress,
+    )
+    least = floors(task.space, task.rules.requirements)
+    seconds = time.perf_counter() - clock
+    return Solved(task, settings, proof, least, seconds, interrupt.asked, output=output)
+
+
+def _held_run(book: Book, task: Task) -> Result:
+    """Return the run that a workbook holds; one that has not begun if it is not of this task."""
+    with suppress(InputError):
+        return resumed(task, saved_run_of(book, task))
+    return not_begun(task)
 
 
 def _obstacle(task: Task, settings: ExactSettings) -> InfeasibleError | None:

@@ -75,6 +75,20 @@ def chromosome_cells(
             yield Cell(row, first.column + column, gene, style, formula)
 
 
+def title_cells(card: Card, title: str, formula: str | None = None) -> Iterator[Cell]:
+    """Yield the title of a card, in a band as wide as the card."""
+    for column in range(card.columns):
+        here = card.at(0, column)
+        first = column == 0
+        yield Cell(
+            here.row,
+            here.column,
+            title if first else None,
+            Style.CARD_TITLE,
+            formula if first else None,
+        )
+
+
 @dataclass(frozen=True, slots=True)
 class LiveCard:
     """One card: where it stands, where its helper cells stand, and what the engine says.
@@ -90,6 +104,8 @@ class LiveCard:
         Formulas of the gene cells, where they are not plain numbers.
     typed : bool
         Whether a designer may type genes there.
+    title_formula : str, optional
+        Formula of the title, where it depends on other cells.
     """
 
     card: Card
@@ -100,12 +116,12 @@ class LiveCard:
     grasp: Grasp
     gene_formulas: Sequence[Sequence[str]] | None = None
     typed: bool = False
+    title_formula: str | None = None
 
     def cells(self) -> Iterator[Cell]:
         """Yield all cells, top to bottom."""
         slots = self.card.gene_slots
-        for column in range(self.card.columns):
-            yield self._cell(0, column, None if column else self.title, Style.CARD_TITLE)
+        yield from title_cells(self.card, self.title, self.title_formula)
         genes = self.card.at(1, 0)
         yield from chromosome_cells(
             genes, self.grasp.chromosome, slots, self.gene_formulas, typed=self.typed

@@ -5,7 +5,8 @@ from __future__ import annotations
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.result import Result
 from grasp_xl.workbook.layout import FITNESS_TABLE, Area
-from grasp_xl.workbook.pen import Pen
+from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.styles import Style
 from grasp_xl.workbook.table import DASH
 
@@ -23,8 +24,15 @@ LOOKS = (
 BENCHMARK = "Benchmark"
 
 
-def write_fitness_table(pen: Pen, result: Result) -> None:
-    """Write the fitness of the benchmark, and of the fittest at the thesis's generations."""
+PROOF_LABEL_COLUMNS, PROOF_VALUE_COLUMNS = 3, 4
+"""How wide what is proved stands below the table."""
+
+
+def write_fitness_table(pen: Pen, result: Result, proved: Proved | None) -> None:
+    """Write the fitness of the benchmark, of the fittest at the thesis's generations, of the best.
+
+    Below it what the exact search says, where somebody asked it.
+    """
     pen.write(0, 0, "FITNESS TABLE", Style.TITLE)
     pen.row(2, 0, COLUMNS, Style.HEADER)
     rows = [(BENCHMARK, result.benchmark)]
@@ -33,12 +41,40 @@ def write_fitness_table(pen: Pen, result: Result) -> None:
         rows.append((LABELS.get(generation, f"Gen: {generation}"), grasp))
     if result.best:
         rows.append(("Best", result.best))
+    if proved and proved.grasp:
+        rows.append((proved.label, proved.grasp))
     for row, (label, grasp) in enumerate(rows, 3):
         pen.write(row, 0, label, Style.LABEL)
         _row(pen, row, grasp, with_fitness=grasp.feasible or label == BENCHMARK)
+    behind = 3 + len(rows)
+    if proved:
+        behind = _write_proof(pen, behind + 1, result, proved)
     pen.sheet.freeze_panes(3, 1)
-    pen.widths(0, *[14] * len(COLUMNS))
-    pen.print_pages(Area(FITNESS_TABLE, 0, 0, 3 + len(rows), len(COLUMNS)))
+    pen.widths(0, 17, *[14] * (len(COLUMNS) - 1))
+    pen.print_pages(Area(FITNESS_TABLE, 0, 0, behind, len(COLUMNS)))
+
+
+def _write_proof(pen: Pen, row: int, result: Result, proved: Proved) -> int:
+    """Write what is proved, a line each, and return the row behind the last."""
+    proof, best = proved.proof, result.best
+    value = proof.designs[0].value if proof.designs else None
+    above = max(0.0, best.value / value - 1) if best and value else None
+    lines: list[tuple[str, CellValue, Style]] = [
+        ("Status", proof.status, Style.CENTRED),
+        ("Among", proved.among, Style.CENTRED),
+        ("Ended", proved.ended, Style.CENTRED),
+        (f"{proved.label} ({result.rules.criterion.name})", value, Style.RESULT),
+        ("Bound: no grasp is below", proof.bound, Style.RESULT),
+        ("Gap", proof.gap, Style.PERCENT),
+        ("Best of the genetic run above it", above, Style.PERCENT),
+        ("Time of the exact search (s)", round(proof.seconds, 3), Style.TORQUE),
+    ]
+    pen.span(Area(FITNESS_TABLE, row, 0, 1, len(COLUMNS)), "Exact search", Style.HEADING)
+    for here, (label, told, style) in enumerate(lines, row + 1):
+        pen.span(Area(FITNESS_TABLE, here, 0, 1, PROOF_LABEL_COLUMNS), label, Style.LABEL)
+        area = Area(FITNESS_TABLE, here, PROOF_LABEL_COLUMNS, 1, PROOF_VALUE_COLUMNS)
+        pen.span(area, DASH if told is None else told, style)
+    return row + 1 + len(lines)
 
 
 def _row(pen: Pen, row: int, grasp: Grasp, *, with_fitness: bool) -> None:

@@ -10,12 +10,23 @@ from grasp_xl.search.result import Result
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.calc_sheet import CalcBlock
-from grasp_xl.workbook.cards import GENE_STYLES, LiveCard, chromosome_cells, user_cells
+from grasp_xl.workbook.cards import (
+    GENE_STYLES,
+    LiveCard,
+    chromosome_cells,
+    title_cells,
+    user_cells,
+)
 from grasp_xl.workbook.designs_sheet import picked_genes
 from grasp_xl.workbook.guidance import guide_blocks, guide_card, guide_parameters
 from grasp_xl.workbook.layout import GA, Area, Card, Layout
 from grasp_xl.workbook.pen import LEAST_SCALE, PAGE_WIDTH, ROW_HEIGHT, CellValue, Pen
+from grasp_xl.workbook.proved import NO_PROOF, NOT_PROVED, Proved
+from grasp_xl.workbook.run_log import PROOF_TITLE
 from grasp_xl.workbook.styles import Style
+
+EDITED = "Edited since the search for the optimum"
+"""Title of the exact search's card once genes or inputs are others than those of its proof."""
 
 USER_CALC = 0
 """Place of the user-defined block's helper cells on ``Calc``; the cards' follow."""
@@ -33,15 +44,20 @@ class Shown:
         Whether the designer typed it; else its genes follow the picked valid design.
     stale_user : Chromosome or None
         User-defined genes that the option space does not have: shown, not used.
+    proved : Proved or None
+        What the exact search says; None where nobody asked it.
     """
 
     what_if: Grasp
     typed_what_if: bool
     stale_user: Chromosome | None
+    proved: Proved | None
 
 
-def write_ga(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) -> list[LiveCard]:
-    """Write the sheet as the last generation left it, and return its cards."""
+def write_ga(
+    pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown
+) -> dict[str, LiveCard]:
+    """Write the sheet as the last generation left it, and return its cards by name."""
     pen.write(0, 0, "GENETIC ALGORITHM", Style.TITLE)
     _parameters(pen, plan, task)
     _blocks(pen, plan, task, result, shown)
@@ -53,18 +69,33 @@ def write_ga(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) -
         pen.name_area(f"{name}Fitness", live.card.fitness)
         pen.name_area(f"{name}Divergence", live.card.divergence)
         guide_card(pen, live.card)
-    _look(pen, plan)
-    return list(cards.values())
+    if layout.PROVED.name not in cards:
+        _say_what_is_not_proved(pen, plan.proved, shown.proved)
+    _look(pen, plan, len(cards))
+    return cards
 
 
-def _look(pen: Pen, plan: Layout) -> None:
+def _say_what_is_not_proved(pen: Pen, card: Card, proved: Proved | None) -> None:
+    """Write in the place of the exact search's card why there is none."""
+    pen.put(title_cells(card, proved.title if proved else NOT_PROVED))
+    told = NO_PROOF
+    if proved:
+        told = (
+            f"The exact search ended before it found a grasp: {proved.ended}.",
+            f"None has a value below {proved.proof.bound:.6g}.",
+        )
+    for row, text in enumerate(told, 1):
+        pen.write(card.row + row, card.column, text, Style.NOTE)
+
+
+def _look(pen: Pen, plan: Layout, printed: int) -> None:
     """Set widths and pages: parameters and blocks, then two cards a page; less where wide."""
     pen.sheet.freeze_panes(1, 0)
     pen.widths(0, 32, 12, 2)
-    cards = [plan.card(number) for number in range(plan.children + 1)]
+    cards = [plan.card(number) for number in range(plan.children + 2)]
     for card in cards:
         pen.widths(card.column, 19, *[9] * (card.columns - 1), 2)
-    areas = [card.area for card in cards]
+    areas = [card.area for card in cards[:printed]]
     width, _ = pen.sheet.pixels(areas[0])
     abreast = max(1, min(2, int(PAGE_WIDTH * 100 / LEAST_SCALE / width)))
     rows = [areas[first : first + abreast] for first in range(0, len(areas), abreast)]
@@ -166,4 +197,12 @@ def _cards(plan: Layout, task: Task, result: Result, shown: Shown) -> dict[str, 
     if not shown.typed_what_if:
         what_if = replace(what_if, gene_formulas=picked_genes(plan.gene_slots))
     cards[layout.WHAT_IF.name] = what_if
+    if shown.proved and shown.proved.grasp:
+        proved = live(len(cards), plan.proved, shown.proved.title, shown.proved.grasp)
+        cards[layout.PROVED.name] = replace(proved, title_formula=_proved_title(plan.proved))
     return cards
+
+
+def _proved_title(card: Card) -> str:
+    """Return the formula of a title that no longer claims a proof once anything was edited."""
+    return f'IF({card.difference.local}="edited","{EDITED}",{PROOF_TITLE})'

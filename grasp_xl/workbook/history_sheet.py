@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +12,8 @@ import numpy as np
 from grasp_xl.search.result import Result, gene_columns
 from grasp_xl.workbook.layout import HISTORY, HISTORY_ROW, Area
 from grasp_xl.workbook.pen import Pen
-from grasp_xl.workbook.styles import BLUE, GREY, Style
+from grasp_xl.workbook.proved import Proved, charted
+from grasp_xl.workbook.styles import BLUE, GREEN, GREY, Style
 from grasp_xl.workbook.table import (
     CRITERIA,
     CRITERIA_WIDTHS,
@@ -36,12 +39,33 @@ MAX_STEPS = 1_000
 DRAWN_DIGITS = 6
 """Decimals of what charts draw: else an axis might show only the rounding of equal values."""
 
+PROVED_BOUND = "Proved bound"
+COURSE = {"color": BLUE, "width": 1.75}
+DASHED = {"color": GREY, "width": 1.5, "dash_type": "dash"}
+PROVED_LINE = {"color": GREEN, "width": 1.75, "dash_type": "long_dash"}
+"""Looks of the lines."""
+
 CHART_WIDTH, CHART_HEIGHT = 560, 295
 CHART_COLUMNS, CHART_ROWS = 18, 16
 """Columns that two charts take side by side, and rows that one takes."""
 
 
-def write_history(pen: Pen, book: Any, result: Result) -> None:  # noqa: ANN401 (untyped library)
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line of a chart: its name in the legend, generations and values, its look."""
+
+    name: str
+    x: list[Any]
+    y: list[Any]
+    look: dict[str, Any]
+
+
+def write_history(
+    pen: Pen,
+    book: Any,  # noqa: ANN401 (untyped library)
+    result: Result,
+    proved: Proved | None,
+) -> None:
     """Write the generations where the fittest changed, the first and the last, and the charts."""
     history = _listed(result)
     genes = gene_columns(result.space)
@@ -57,9 +81,16 @@ def write_history(pen: Pen, book: Any, result: Result) -> None:  # noqa: ANN401 
     add_table(pen, "History", Area(HISTORY, HISTORY_ROW, 0, 1 + rows, len(labels)), labels)
     left = len(labels) + CHART_COLUMNS + 2
     steps = _steps(pen, history, left)
-    benchmark = _benchmark(pen, result, left + steps.columns + 1)
+    grasp = result.benchmark
+    own = [grasp.fos, *grasp.terms, grasp.divergence]
+    benchmark = _level(pen, "Benchmark", own, left + steps.columns + 1, result)
+    best = _proved_lines(pen, result, proved, benchmark.column + benchmark.columns + 1)
     for number, (_, title, unit, _) in enumerate(CRITERIA, 1):
-        chart = _chart(book, title, unit, _column(steps, number), _column(benchmark, number))
+        lines = [
+            Line("Fittest", *_column(steps, number), COURSE),
+            Line("Benchmark", *_column(benchmark, number), DASHED),
+        ]
+        chart = _chart(book, title, unit, lines + best[number - 1])
         row = HISTORY_ROW + 1 + CHART_ROWS * ((number - 1) // 2)
         column = len(labels) + 1 + CHART_COLUMNS // 2 * ((number - 1) % 2)
         pen.insert_chart(row, column, chart)
@@ -117,15 +148,37 @@ def _steps(pen: Pen, history: pd.DataFrame, left: int) -> Area:
     return Area(HISTORY, HISTORY_ROW + 1, left, max(1, len(points)), len(header))
 
 
-def _benchmark(pen: Pen, result: Result, left: int) -> Area:
-    """Write the benchmark's values at both ends of the generation axis."""
-    grasp = result.benchmark
-    values = [round(v, DRAWN_DIGITS) for v in (grasp.fos, *grasp.terms, grasp.divergence)]
-    header = ("Benchmark", *(title for _, title, _, _ in CRITERIA))
+def _level(pen: Pen, label: str, values: Sequence[float | None], left: int, result: Result) -> Area:
+    """Write values that no generation changes, at both ends of the generation axis."""
+    drawn = [None if value is None else round(value, DRAWN_DIGITS) for value in values]
+    header = (label, *(title for _, title, _, _ in CRITERIA))
     pen.row(HISTORY_ROW, left, header, Style.HEADER)
     for offset, generation in enumerate((1, max(10, result.state.generation)), 1):
-        pen.row(HISTORY_ROW + offset, left, (generation, *values), Style.RATIO)
+        pen.row(HISTORY_ROW + offset, left, (generation, *drawn), Style.RATIO)
     return Area(HISTORY, HISTORY_ROW + 1, left, 2, len(header))
+
+
+def _proved_lines(pen: Pen, result: Result, proved: Proved | None, left: int) -> list[list[Line]]:
+    """Write what the exact search says, and return its line, if it has one, for each chart.
+
+    That is the value of its grasp; of what is minimised, as long as the grasp is not proved to be
+    the best, the bound.
+    """
+    if proved is None:
+        return [[] for _ in CRITERIA]
+    grasp = proved.grasp
+    values: list[float | None] = [None] * len(CRITERIA)
+    names = [proved.label] * len(CRITERIA)
+    if grasp:
+        values = [grasp.fos, *grasp.terms, grasp.divergence]
+    minimised = charted(result.rules.criterion)
+    if minimised is not None and proved.proof.status != "optimal":
+        values[minimised], names[minimised] = proved.proof.bound, PROVED_BOUND
+    area = _level(pen, proved.label, values, left, result)
+    return [
+        [] if value is None else [Line(name, *_column(area, number), PROVED_LINE)]
+        for number, (name, value) in enumerate(zip(names, values, strict=True), 1)
+    ]
 
 
 def _column(area: Area, number: int) -> tuple[list[Any], list[Any]]:
@@ -141,16 +194,18 @@ def _chart(
     book: Any,  # noqa: ANN401 (untyped library)
     title: str,
     unit: str,
-    course: tuple[list[Any], list[Any]],
-    benchmark: tuple[list[Any], list[Any]],
+    lines: Sequence[Line],
 ) -> Any:  # noqa: ANN401 (untyped library)
     chart = book.add_chart({"type": "scatter", "subtype": "straight"})
-    lines = (
-        ("Fittest", course, {"color": BLUE, "width": 1.75}),
-        ("Benchmark", benchmark, {"color": GREY, "width": 1.5, "dash_type": "dash"}),
-    )
-    for name, (categories, values), line in lines:
-        chart.add_series({"name": name, "categories": categories, "values": values, "line": line})
+    for line in lines:
+        chart.add_series(
+            {
+                "name": line.name,
+                "categories": line.x,
+                "values": line.y,
+                "line": line.look,
+            }
+        )
     chart.set_title({"name": f"{title} vs Generation Number", "name_font": {"size": 11}})
     chart.set_x_axis(
         {

@@ -244,6 +244,7 @@ PARENT_BLOCK = Field("ParentChromosome", "Parent Chromosome")
 MATRIX_BLOCK = Field("MutationMatrix", "Mutation matrix")
 ASSIGNED_MARK = "(program-assigned)"
 WHAT_IF = Field("WhatIf", "What-if")
+PROVED = Field("Proved", "Proved optimum")
 
 
 @dataclass(frozen=True, slots=True)
@@ -313,6 +314,11 @@ class Layout:
         """Card that the designer may type into."""
         return self.card(self.children)
 
+    @property
+    def proved(self) -> Card:
+        """Card of the exact search."""
+        return self.card(self.children + 1)
+
     def parameter(self, name: str) -> Area:
         """Value cell of a parameter."""
         number = [field.name for field in PARAMETERS].index(name)
@@ -369,6 +375,11 @@ class Card:
     def divergence(self) -> Area:
         """The divergence, right of the normalised values."""
         return self.at(self.summary_row + 13, 5)
+
+    @property
+    def difference(self) -> Area:
+        """How far the card's numbers are from the program's, or that something was edited."""
+        return self.at(self.summary_row + 22, 5)
 
 
 TABLE_ROW = 7

@@ -7,11 +7,14 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 
 from grasp_xl.chromosome import BLANK_GENE, Chromosome
 from grasp_xl.errors import InputError, Problem
+from grasp_xl.grasp import evaluate
+from grasp_xl.search.exact import Proof, Status
 from grasp_xl.search.result import State, Trace, gene_columns, load_stream
 from grasp_xl.space import IntArray, OptionSpace
 from grasp_xl.task import Task
@@ -21,6 +24,7 @@ from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank
 from grasp_xl.workbook.history_sheet import MAX_HISTORY
 from grasp_xl.workbook.inputs import changed_inputs
 from grasp_xl.workbook.layout import Area, Field
+from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.reading_ga import find_block
 
 DESIGNS_LISTED = "Valid designs listed"
@@ -118,6 +122,33 @@ def shown_run(source: Source, space: OptionSpace) -> SavedRun | None:
     """Read a run as a workbook shows it, though somebody may have sorted or cut its lists."""
     with suppress(*UNREADABLE):
         return _saved_run(source, space, logged_values(source))
+    return None
+
+
+def shown_proof(source: Source, task: Task) -> Proved | None:
+    """Read what a workbook shows of the exact search; None where it shows nothing.
+
+    Where the option space no longer has its grasp, the benchmark stands for it.
+    """
+
+    def logged(name: str) -> Value:
+        return source.value(source.names[name])
+
+    with suppress(*UNREADABLE):
+        text, grasp = logged(run_log.PROVED_GRASP), None
+        if text:
+            grasp = task.benchmark
+            with suppress(*UNREADABLE):
+                genes = _checked(task.space, np.array(json.loads(str(text))))
+                grasp = evaluate(task.space, task.rules, genes)
+        status = {str(status): status for status in get_args(Status)}[
+            str(logged(run_log.PROOF_STATUS))
+        ]
+        bound, seconds = (
+            float(str(logged(name))) for name in (run_log.PROOF_BOUND, run_log.PROOF_SECONDS)
+        )
+        proof = Proof(status, bound, (grasp,) if grasp else (), seconds, nodes=0)
+        return Proved(proof, str(logged(run_log.PROOF_AMONG)), str(logged(run_log.PROOF_ENDED)))
     return None
 
 

@@ -21,6 +21,7 @@ from grasp_xl.workbook.inputs import (
 )
 from grasp_xl.workbook.layout import RUN_LOG, Area
 from grasp_xl.workbook.pen import ROW_HEIGHT, CellValue, Pen
+from grasp_xl.workbook.proved import NOT_PROVED, Proved
 from grasp_xl.workbook.styles import Style
 
 INPUTS_HASH = "InputsHash"
@@ -38,6 +39,15 @@ WHAT_IF_WRITTEN = "WhatIfWritten"
 BENCHMARK_WRITTEN = "BenchmarkWritten"
 """The benchmark's genes as we wrote them, by which typing over an assigned one is told apart."""
 
+PROOF_STATUS = "ProofStatus"
+PROOF_BOUND = "ProofBound"
+PROOF_SECONDS = "ProofSeconds"
+PROOF_AMONG = "ProofAmong"
+PROOF_ENDED = "ProofEnded"
+PROVED_GRASP = "ProvedGrasp"
+PROOF_TITLE = "ProofTitle"
+"""Title of the exact search's card."""
+
 VALUE_WIDTH = 90
 """Width of the column of values: at least as many characters to a line."""
 
@@ -52,13 +62,22 @@ class Origin:
     ended: datetime
 
 
+Row = tuple[str, CellValue | datetime, str]
+"""Label, value, and defined name of the value if it has one."""
+
+
 def write_run_log(
-    pen: Pen, task: Task, result: Result, origin: Origin, what_if: Chromosome
+    pen: Pen,
+    task: Task,
+    result: Result,
+    origin: Origin,
+    what_if: Chromosome,
+    proved: Proved | None,
 ) -> None:
     """Write the sheet: a label, a value, and for some a defined name."""
     state, best = result.state, result.best
     interrupted = " (INTERRUPTED: best so far)" if result.stop_reason == "interrupted" else ""
-    rows: list[tuple[str, CellValue | datetime, str]] = [
+    rows: list[Row] = [
         ("Program", f"grasp_xl {__version__}", ""),
         ("Input file", origin.name, ""),
         ("Input SHA-256", origin.sha256, ""),
@@ -81,8 +100,7 @@ def write_run_log(
         ("Changes listed in the history", min(len(state.changes), MAX_HISTORY), ""),
         ("History lists all from generation", listed_from(result), HISTORY_FROM),
         ("State of the random stream", state.random_state, RANDOM_STATE),
-        ("Exact bound", None, ""),
-        ("Exact gap", None, ""),
+        *_proof_rows(proved),
     ]
     rows += [("Warning", str(warning), "") for warning in task.warnings]
     pen.write(0, 0, "RUN LOG", Style.TITLE)
@@ -102,6 +120,23 @@ def write_run_log(
     pen.widths(0, 32, VALUE_WIDTH)
     pages = [Area(RUN_LOG, 0, 0, inputs - 1, 2), Area(RUN_LOG, inputs, 0, row - inputs, 2)]
     pen.print_pages(pictures=pages)
+
+
+def _proof_rows(proved: Proved | None) -> list[Row]:
+    """Return what the exact search says; empty values where nobody asked it."""
+    proof = proved.proof if proved else None
+    grasp = proved.grasp if proved else None
+    return [
+        ("Exact search", proved.title if proved else NOT_PROVED, PROOF_TITLE),
+        ("Exact status", proof.status if proof else None, PROOF_STATUS),
+        ("Exact search among", proved.among if proved else None, PROOF_AMONG),
+        ("Exact search ended", proved.ended if proved else None, PROOF_ENDED),
+        ("Exact grasp (genes)", genes_text(grasp.chromosome) if grasp else None, PROVED_GRASP),
+        ("Exact value", grasp.value if grasp else None, ""),
+        ("Exact bound", proof.bound if proof else None, PROOF_BOUND),
+        ("Exact gap", proof.gap if proof else None, ""),
+        ("Seconds of exact search", round(proof.seconds, 3) if proof else None, PROOF_SECONDS),
+    ]
 
 
 def _write_inputs(pen: Pen, row: int, inputs: dict[str, CellValue]) -> int:

@@ -22,6 +22,7 @@ from grasp_xl.workbook.history_sheet import write_history
 from grasp_xl.workbook.layout import Layout
 from grasp_xl.workbook.option_space_sheet import write_option_space
 from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.run_log import Origin, write_run_log
 from grasp_xl.workbook.stamp import PLACEHOLDER, STAMP_PROPERTY, stamped
 from grasp_xl.workbook.styles import FIXED_FONT, Formats
@@ -38,6 +39,7 @@ def full_workbook(
     what_if: Chromosome | None = None,
     picked: Chromosome | None = None,
     stale_user: Chromosome | None = None,
+    proved: Proved | None = None,
 ) -> tuple[bytes, Filled]:
     """Return the full workbook of a run, and the cells that it fills.
 
@@ -51,16 +53,18 @@ def full_workbook(
     picked : Chromosome, optional
         Valid design that the designer picked: it stays on the What-if card unless others were
         typed, as the pick where it is in the list, else as typed genes.  Where nothing was typed or
-        picked, the card shows the best grasp.
+        picked, the card shows the best grasp: of the run, else of the exact search.
     stale_user : Chromosome, optional
         User-defined genes that this option space does not have: shown, not used.
+    proved : Proved, optional
+        What the exact search says.
     """
-    best = result.best or result.benchmark
+    best = result.best or (proved.grasp if proved else None) or result.benchmark
     if picked and number_of(result, picked) is None:
         what_if, picked = what_if or picked, None
     on_card = what_if or picked
     grasp = evaluate(task.space, task.rules, on_card) if on_card else best
-    shown = Shown(grasp, what_if is not None, stale_user)
+    shown = Shown(grasp, what_if is not None, stale_user, proved)
     plan = Layout(task.space.gene_slots, task.settings.children)
 
     file = io.BytesIO()
@@ -74,14 +78,17 @@ def full_workbook(
     write_option_space(pens[layout.OPTION_SPACE], task.space, live=True)
     cards = write_ga(pens[layout.GA], plan, task, result, shown)
     write_valid_designs(pens[layout.VALID_DESIGNS], book, result, best.chromosome, picked)
-    write_fitness_table(pens[layout.FITNESS_TABLE], result)
-    write_history(pens[layout.HISTORY], book, result)
+    write_fitness_table(pens[layout.FITNESS_TABLE], result, proved)
+    write_history(pens[layout.HISTORY], book, result, proved)
     benchmark = Picture("Benchmark grasp", result.benchmark, user_block(plan))
-    pictures = [Picture("What-if grasp", shown.what_if, cards[-1].block), benchmark]
+    pictures = [
+        Picture("What-if grasp", shown.what_if, cards[layout.WHAT_IF.name].block),
+        benchmark,
+    ]
     write_grasp(pens[layout.GRASP], book, task.space, pictures)
-    write_run_log(pens[layout.RUN_LOG], task, result, origin, best.chromosome)
+    write_run_log(pens[layout.RUN_LOG], task, result, origin, best.chromosome, proved)
     blocks = [(layout.USER_BLOCK.label, benchmark.block, result.benchmark)]
-    blocks += [(card.title, card.block, card.grasp) for card in cards]
+    blocks += [(card.title, card.block, card.grasp) for card in cards.values()]
     write_calc(pens[layout.CALC], task.space, _inputs(task), blocks, plan)
     pens[layout.GA].sheet.activate()
     book.set_custom_property(STAMP_PROPERTY, PLACEHOLDER)
