@@ -54,11 +54,13 @@ def warnings(found: Sequence[Problem]) -> None:
         _err.print(f"Warning: {warning}", style="yellow", markup=False)
 
 
-def compile_notice(*, quiet: bool, module: str = "", seconds: int = 10) -> None:
+def compile_notice(
+    *, quiet: bool, module: str = "", what: str = "search", seconds: int = 10
+) -> None:
     """Say why the first run on a machine takes longer, where a module's code is not there yet."""
     with suppress(OSError):  # a cache that may not be read is no reason to fail
         if not quiet and not is_compiled(module):
-            _err.print(f"Compiling the search for this machine, once: about {seconds} seconds ...")
+            _err.print(f"Compiling the {what} for this machine, once: about {seconds} seconds ...")
 
 
 class SearchBar:

@@ -60,9 +60,9 @@ def _write_proof(pen: Pen, row: int, result: Result, proved: Proved) -> int:
     value = proof.designs[0].value if proof.designs else None
     above = max(0.0, best.value / value - 1) if best and value else None
     lines: list[tuple[str, CellValue, Style]] = [
-        ("Status", proof.status, Style.CENTRED),
-        ("Among", proved.among, Style.CENTRED),
-        ("Ended", proved.ended, Style.CENTRED),
+        ("Status", proof.status, Style.RATIO),
+        ("Among", proved.among, Style.RATIO),
+        ("Ended", proved.ended, Style.RATIO),
         (f"{proved.label} ({result.rules.criterion.name})", value, Style.RESULT),
         ("Bound: no grasp is below", proof.bound, Style.RESULT),
         ("Gap", proof.gap, Style.PERCENT),
