@@ -13,11 +13,14 @@ import numpy as np
 from spaces import kind
 
 from grasp_xl.chromosome import BLANK_GENE, Chromosome
+from grasp_xl.grasp import evaluate
 from grasp_xl.rules import TERMS, Criterion
+from grasp_xl.search.exact import Proof, Status
 from grasp_xl.search.genetic import search
 from grasp_xl.search.stop import Generations
 from grasp_xl.space import ElementKind, OptionSpace, Part, frozen
 from grasp_xl.task import Parameters, Task, settle
+from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.run_log import Origin
 from grasp_xl.workbook.writing import full_workbook
 
@@ -63,8 +66,20 @@ class Case:
             task.benchmark.chromosome,
             [Generations(generations)],
         )
-        content, _ = full_workbook(task, result, ORIGIN, what_if=self.what_if)
+        proved = self.proved
+        content, _ = full_workbook(task, result, ORIGIN, what_if=self.what_if, proved=proved)
         return content
+
+    @property
+    def proved(self) -> Proved | None:
+        """What an exact search might have said: a card can show any grasp."""
+        if self.what_if is None:
+            return None
+        grasp = evaluate(self.space, self.task.rules, self.what_if)
+        feasible = self.places == "scattered"
+        bound = grasp.value / 2 if feasible else grasp.value
+        status: Status = "feasible" if feasible else "optimal"
+        return Proved(Proof(status, bound, (grasp,), 1.0, nodes=0))
 
 
 def random_case(seed: int) -> Case:

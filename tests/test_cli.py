@@ -296,7 +296,9 @@ WRONG = [
     *(f"solve FILE --gap {word}" for word in ("-1", "nan", "inf")),
     *(f"solve FILE --min-elements {word}" for word in ("0", "two")),
     "solve FILE --time-limit -1",
-    "solve FILE -o OTHER",
+    "solve FILE -o FILE",
+    "solve FILE -o other.ods",
+    *(f"run FILE --prove-limit {word}" for word in ("-1", "nan", "soon")),
 ]
 
 
@@ -704,8 +706,10 @@ def cell_values(book: Path) -> dict[str, list[list[Any]]]:
     """Read all values of a workbook, times aside."""
     opened = CalamineWorkbook.from_path(book)
     sheets = {name: opened.get_sheet_by_name(name).to_python() for name in opened.sheet_names}
-    times = ("Started", "Ended", "Seconds of search")
-    sheets["Run Log"] = [row for row in sheets["Run Log"] if row[0] not in times]
+    times = ("Started", "Ended", "Seconds of search", "Seconds of exact search")
+    times += ("Time of the exact search (s)",)
+    for name in ("Run Log", "Fitness Table"):
+        sheets[name] = [row for row in sheets[name] if row[0] not in times]
     return sheets
 
 

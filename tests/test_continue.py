@@ -24,8 +24,11 @@ from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.writing import export_workbook
 
 SAMPLES = Path(__file__).parents[1] / "workbooks"
-OF_THIS_RUN = ("Input file", "Input SHA-256", "Started", "Ended", "Seconds of search")
-"""What the Run Log says of one call of the program."""
+OF_THIS_RUN = (
+    *("Input file", "Input SHA-256", "Started", "Ended", "Seconds of search"),
+    *("Seconds of exact search", "Time of the exact search (s)"),
+)
+"""What run log and fitness table say of one call of the program."""
 
 
 @pytest.fixture
@@ -87,7 +90,8 @@ def content(book: Path) -> dict[str, list[list[Any]]]:
     """Read all values of a workbook but those of OF_THIS_RUN."""
     opened = CalamineWorkbook.from_path(book)
     sheets = {name: opened.get_sheet_by_name(name).to_python() for name in opened.sheet_names}
-    sheets["Run Log"] = [row for row in sheets["Run Log"] if row[0] not in OF_THIS_RUN]
+    for name in ("Run Log", "Fitness Table"):
+        sheets[name] = [row for row in sheets[name] if row[0] not in OF_THIS_RUN]
     return sheets
 
 

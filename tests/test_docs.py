@@ -218,9 +218,9 @@ def documented_names() -> list[str]:
 
 @pytest.fixture(scope="module")
 def written_names(folder: Path) -> dict[str, layout.Area]:
-    """Return the names of a full workbook, written now, and their cells."""
+    """Return the names of a full workbook with a proof, written now, and their cells."""
     book = folder / "names.xlsx"
-    assert main(["new", str(folder / "bracket.xlsx"), "-o", str(book), "--quiet"]) == 0
+    assert main(["solve", str(folder / "bracket.xlsx"), "-o", str(book), "--quiet"]) == 0
     names = openpyxl.load_workbook(book).defined_names
     return {name: layout.area_of(str(names[name].attr_text)) for name in names}
 

@@ -25,6 +25,7 @@ from grasp_xl.commands.evaluate import evaluate_grasp
 from grasp_xl.commands.output import Output
 from grasp_xl.commands.preparing import prepare
 from grasp_xl.commands.run import run_file
+from grasp_xl.commands.solve import prove_run
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.stop import Generations
 from grasp_xl.space import OptionSpace, Part
@@ -60,10 +61,11 @@ PLAN = Layout(gene_slots=5, children=5)
 CARDS = {
     **{f"Child{number + 1}": PLAN.card(number) for number in range(PLAN.children)},
     "WhatIf": PLAN.what_if,
+    "Proved": PLAN.proved,
 }
 USER = PLAN.block_genes(layout.USER_BLOCK)
 CARD_ROWS, CARD_COLUMNS = 43, 7
-GA_CELLS = Area(GA, 0, 0, PLAN.card_row + CARD_ROWS, PLAN.what_if.column + CARD_COLUMNS)
+GA_CELLS = Area(GA, 0, 0, PLAN.card_row + CARD_ROWS, PLAN.proved.column + CARD_COLUMNS)
 STATUS, DIFFERENCE = (35, 0), (42, 5)
 NOT_AVAILABLE = "#N/A"
 GOAL_LABELS = dict(
@@ -166,10 +168,15 @@ def rewritten(path: Path, to: Path, pattern: str, replacement: str, sheet: str =
 
 
 def sample_result(name: str, folder: Path) -> Path:
-    """Run a sample's workbook for a few generations."""
+    """Run a sample's workbook for a few generations, with the proof after it."""
     path = folder / f"{name}-result.xlsx"
-    said, output = Parameters(), Output(path)
-    run_file(SAMPLES / f"{name}.xlsx", said, output, stop=lambda _: [Generations(500)])
+    run_file(
+        SAMPLES / f"{name}.xlsx",
+        Parameters(),
+        Output(path),
+        stop=lambda _: [Generations(500)],
+        prove=lambda task, result: prove_run(task, result, path, 10.0),
+    )
     return path
 
 

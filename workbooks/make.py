@@ -14,9 +14,14 @@ from parts import SamplePart, sample_parts
 from grasp_xl.commands.new import make_workbook
 from grasp_xl.commands.output import Output
 from grasp_xl.commands.run import run_file
+from grasp_xl.commands.solve import prove_run
 from grasp_xl.search.stop import Generations
 from grasp_xl.task import Parameters
 from grasp_xl.workbook.writing import export_workbook
+
+
+PROVE_SECONDS = 60.0
+"""Longest proof; every sample's ends in a few seconds."""
 
 
 def make_input(part: SamplePart, folder: Path) -> Path:
@@ -38,6 +43,7 @@ def make_result(book: Path) -> Path:
         Parameters(),
         Output(result, force=True),
         stop=lambda task: [Generations(task.generations)],
+        prove=lambda task, found: prove_run(task, found, result, PROVE_SECONDS),
     )
     return result
 

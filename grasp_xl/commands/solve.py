@@ -147,7 +147,7 @@ def prove_run(
     output: Path,
     time_limit_s: float,
     *,
-    interrupt: Interrupt,
+    interrupt: Interrupt | None = None,
     on_progress: OnBound | None = None,
 ) -> Solved:
     """Prove how good the best grasp of a genetic run is, and find the best of all.
@@ -160,11 +160,12 @@ def prove_run(
     output : Path
         Workbook that will show it.
     time_limit_s : float
-    interrupt : Interrupt
+    interrupt : Interrupt, optional
         Once asked, it ends the search with what is proved by then.
     on_progress : callable, optional
     """
     clock = time.perf_counter()
+    ask = interrupt or Interrupt()
     load_exact_search()
     settings = ExactSettings(time_limit_s)
     known = [
@@ -175,12 +176,12 @@ def prove_run(
         task.rules,
         settings,
         known=known,
-        stop=lambda: interrupt.asked,
+        stop=lambda: ask.asked,
         on_progress=on_progress,
     )
     least = floors(task.space, task.rules.requirements)
     seconds = time.perf_counter() - clock
-    return Solved(task, settings, proof, least, seconds, interrupt.asked, output=output)
+    return Solved(task, settings, proof, least, seconds, ask.asked, output=output)
 
 
 def _held_run(book: Book, task: Task) -> Result:
