@@ -19,7 +19,6 @@ from grasp_xl.search.stop import Generations
 from grasp_xl.task import Parameters
 from grasp_xl.workbook.writing import export_workbook
 
-
 PROVE_SECONDS = 60.0
 """Longest proof; every sample's ends in a few seconds."""
 
