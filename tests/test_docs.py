@@ -101,7 +101,7 @@ OPTIONS = {
     for command, parser in SUBCOMMANDS.items()
     for option in parser.params
     if option.param_type_name == "option"
-    for name in option.opts
+    for name in (*option.opts, *option.secondary_opts)
 }
 
 
