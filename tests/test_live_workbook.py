@@ -393,6 +393,17 @@ def test_cards_follow_what_is_typed(edit, opened, tmp_path):
     assert all(map(agrees, (user.fos, *user.terms, user.divergence), fitness))
 
 
+@pytest.mark.parametrize("place", ["PartMass", "CostGoal", PLAN.proved.genes.cell(1, 1)])
+def test_no_card_calls_proved_what_was_edited_since(place, opened):
+    """A typed input, goal or gene takes the word from the title, and undoing it brings it back."""
+    title, before = PLAN.proved.at(0, 0), opened.value(place)
+    assert opened.value(title) == "Proved optimum"
+    opened.enter({place: 17.0})
+    assert opened.value(title) == "Edited since the search for the optimum"
+    opened.enter({place: before})
+    assert opened.value(title) == "Proved optimum"
+
+
 def test_command_line_says_what_the_card_shows(opened, tmp_path):
     """``grasp_xl evaluate --json`` on the saved file and the What-if card give the same numbers."""
     opened.enter({**TYPED_GENES, **EDITS["everything"]})

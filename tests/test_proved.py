@@ -460,7 +460,7 @@ def test_a_proof_whose_grasp_is_gone_is_no_loss(told: Any, tmp_path: Path) -> No
     for cell, value in {"D10": None, "E10": None, "F10": None, "B16": 5}.items():
         opened[layout.OPTION_SPACE][cell] = value
     genes = layout.area_of(opened.defined_names["ProvedGrasp"].attr_text)
-    opened[layout.RUN_LOG][genes.local] = "[[1, 6, 1, 1, 1, 1], [2, 3, 4, 1, 1, 1]]"
+    opened[layout.RUN_LOG][genes.local] = "[[1, 99, 1, 1, 1, 1], [2, 3, 4, 1, 1, 1]]"
     opened.save(book)
     answer, code = told("run", book, "--in-place", "--generations", 50)
     assert (answer.get("error"), code) == (None, 0)
