@@ -324,10 +324,10 @@ def test_solve_replaces_only_what_run_would(
 @pytest.mark.parametrize(
     ("words", "wanted"),
     [
-        ("--min-elements 5", "Proved optimum, of those that have 5 or more elements"),
+        ("--min-elements 5", "Proved optimum among those that have 5 or more elements"),
         (
             "--goals 200,9000,90,2000 --meet-goals",
-            "Proved optimum, of those that meet all goals",
+            "Proved optimum among those that meet all goals",
         ),
     ],
 )
@@ -337,7 +337,7 @@ def test_a_card_says_among_which_grasps_it_is_the_best(
     book = bracket.with_name("best.xlsx")
     assert told("solve", bracket, "-o", book, *words.split())[1] == 0
     assert title(book) == wanted
-    assert table(book)["Among"][2] == wanted.removeprefix("Proved optimum, ")
+    assert table(book)["Among"][2] == wanted.removeprefix("Proved optimum among ")
 
 
 # --- the pictures ---

@@ -6,7 +6,7 @@ from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.result import Result
 from grasp_xl.workbook.layout import FITNESS_TABLE, Area
 from grasp_xl.workbook.pen import CellValue, Pen
-from grasp_xl.workbook.proved import Proved
+from grasp_xl.workbook.proved import ALL_GRASPS, Proved
 from grasp_xl.workbook.styles import Style
 from grasp_xl.workbook.table import DASH
 
@@ -58,7 +58,9 @@ def _write_proof(pen: Pen, row: int, result: Result, proved: Proved) -> int:
     """Write what is proved, a line each, and return the row behind the last."""
     proof, best = proved.proof, result.best
     value = proof.designs[0].value if proof.designs else None
-    above = max(0.0, best.value / value - 1) if best and value else None
+    above = None
+    if best and value and proved.among == ALL_GRASPS:
+        above = max(0.0, best.value / value - 1)
     lines: list[tuple[str, CellValue, Style]] = [
         ("Status", proof.status, Style.RATIO),
         ("Among", proved.among, Style.RATIO),

@@ -50,7 +50,7 @@ class Proved:
     @property
     def title(self) -> str:
         """What that grasp is, and how far from proved: the title of its card."""
-        whose = "" if self.among == ALL_GRASPS else f", {self.among}"
+        whose = "" if self.among == ALL_GRASPS else f" among {self.among}"
         if self.proof.status == "optimal":
             return f"{self.label}{whose}"
         if self.proof.gap is None:
@@ -64,12 +64,12 @@ def among(settings: ExactSettings) -> str:
     Examples
     --------
     >>> among(ExactSettings()), among(ExactSettings(meet_goals=True, min_elements=3))
-    ('all grasps', 'of those that meet all goals and have 3 or more elements')
+    ('all grasps', 'those that meet all goals and have 3 or more elements')
     """
     demands = ["meet all goals"] if settings.meet_goals else []
     if settings.min_elements > 1:
         demands.append(f"have {settings.min_elements} or more elements")
-    return f"of those that {' and '.join(demands)}" if demands else ALL_GRASPS
+    return f"those that {' and '.join(demands)}" if demands else ALL_GRASPS
 
 
 def charted(criterion: Criterion) -> int | None:
