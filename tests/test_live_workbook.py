@@ -788,8 +788,8 @@ def test_difference_is_0_until_something_is_typed(edit, opened):
     opened.recalculate()
     assert opened.values(shown) == [0] * len(CARDS)
     opened.enter(EDITS[edit] or TYPED_GENES)
-    *children, what_if = opened.values(shown)
-    assert children == [0 if edit == "genes" else "edited"] * PLAN.children
+    *children, what_if, proved = opened.values(shown)
+    assert [*children, proved] == [0 if edit == "genes" else "edited"] * (PLAN.children + 1)
     assert what_if == "edited"
 
 
