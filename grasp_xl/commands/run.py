@@ -55,7 +55,7 @@ def run_file(
     stop: Callable[[Task], Sequence[StopRule]],
     go_on: bool = False,
     on_progress: OnProgress | None = None,
-    prove: Callable[[Task, Result], Solved | None] = lambda task, result: None,  # noqa: ARG005
+    prove: Callable[[Task, Result], Solved | None] | None = None,
 ) -> Ran:
     """Run the genetic search on a file, prove how good it is, and write the workbook.
 
@@ -97,7 +97,7 @@ def run_file(
     )
     if saved and result.state.generation == saved.state.generation:
         result = replace(result, matrix=saved.matrix, children=saved.children)
-    solved = prove(task, result)
+    solved = prove(task, result) if prove else None
     shown = solved.shown if solved else None
     save(written_book(task, result, book, began, shown)[0], output.path)
     if output.history:
