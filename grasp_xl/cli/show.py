@@ -202,7 +202,7 @@ def run(ran: Ran, path: Path) -> None:
     elif state.generation:
         line("No grasp met FoS and clearance yet: run more generations, or another seed.")
     if solved:
-        line(f"{proof_sentence(solved)} {_compared(result, solved)}")
+        line(f"{proof_sentence(solved)} {_compared(result, solved)}".strip())
     line(
         f"{state.generation:,} generations in {result.seconds:.2f} s "
         f"({ran.seconds:.2f} s in all), stopped by {result.stop_reason}. Wrote {path}."
