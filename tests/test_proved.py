@@ -414,29 +414,25 @@ def test_without_any_grasp_the_place_of_the_card_says_so(tmp_path: Path) -> None
 # --- writing it again ---
 
 
-@pytest.mark.parametrize("words", [(), ("--prove-limit", "0"), ("--no-prove",)])
+NOTHING_FOUND = ("--cups", "1", "--magnets", "1", "--generations", "0", "--prove-limit", "0")
+
+
 @pytest.mark.parametrize(
-    ("cell", "value"),
-    [("B17", 5), ("B10", "cost"), ("B14", 33.0), ("E9", 2)],
-    ids=["a seed", "the criterion", "a goal", "the user-defined grasp"],
+    "words", [(), ("--prove-limit", "0"), ("--no-prove",), NOTHING_FOUND], ids=" ".join
 )
+@pytest.mark.parametrize(("cell", "value"), [("B10", "cost"), ("F9", 3)])
 def test_what_is_proved_is_no_loss(
     told: Any, tmp_path: Path, words: tuple[str, ...], cell: str, value: object
 ) -> None:
-    """In place of an edited workbook nothing but what was added is named, whatever was proved."""
+    """Once the criterion or the user-defined grasp was typed over, whatever had been proved."""
     tiny_export(tmp_path / "tiny.xlsx")
     ran, _ = told("run", tmp_path / "tiny.xlsx", "--generations", 50, *words)
     book = Path(ran["output"])
     opened = openpyxl.load_workbook(book)
     opened[layout.GA][cell] = value
     opened.save(book)
-    assert told("run", book, "--in-place", "--generations", 50)[1] == 0
-    opened = openpyxl.load_workbook(book)
-    opened[layout.GA].cell(TITLE.row + 60, TITLE.column + 1).value = "Ask Eva."
-    opened.save(book)
-    refused, code = told("run", book, "--in-place", "--generations", 50)
-    place = opened[layout.GA].cell(TITLE.row + 60, TITLE.column + 1).coordinate
-    assert (code, f"the cells GA!{place}." in refused["error"]) == (3, True)
+    answer, code = told("run", book, "--in-place", "--generations", 50)
+    assert (answer.get("error"), code) == (None, 0)
 
 
 def test_what_is_typed_into_its_card_is_named(told: Any, bracket: Path) -> None:

@@ -17,6 +17,7 @@ from grasp_xl.workbook.styles import BLUE, GREEN, GREY, Style
 from grasp_xl.workbook.table import (
     CRITERIA,
     CRITERIA_WIDTHS,
+    DASH,
     GENE_WIDTH,
     GENERATION_WIDTH,
     GRID,
@@ -147,7 +148,7 @@ def _steps(pen: Pen, history: Rows, left: int) -> Area:
 
 def _level(pen: Pen, label: str, values: Sequence[float | None], left: int, result: Result) -> Area:
     """Write values that no generation changes, at both ends of the generation axis."""
-    drawn = [None if value is None else round(value, DRAWN_DIGITS) for value in values]
+    drawn = [DASH if value is None else round(value, DRAWN_DIGITS) for value in values]
     header = (label, *(title for _, title, _, _ in CRITERIA))
     pen.row(HISTORY_ROW, left, header, Style.HEADER)
     for offset, generation in enumerate((1, max(10, result.state.generation)), 1):
