@@ -28,6 +28,7 @@ class Terms(NamedTuple):
 
 
 TERMS = Terms._fields
+EQUAL_WEIGHTS = Terms(1.0, 1.0, 1.0, 1.0)
 UNITS = {"cost": "$", "moment": "N-mm", "deviation": "mm", "structure": "mm"}
 DIVERGENCE = "divergence"
 
@@ -145,7 +146,7 @@ class Rules:
     goals: Goals
     requirements: Requirements = field(default_factory=Requirements)
     criterion: Criterion = field(default_factory=Criterion)
-    weights: Terms = Terms(1.0, 1.0, 1.0, 1.0)
+    weights: Terms = EQUAL_WEIGHTS
 
     @property
     def scales(self) -> Terms:

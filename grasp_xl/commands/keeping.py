@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from grasp_xl.commands.output import Output, not_begun, now, written_book
-from grasp_xl.errors import InfeasibleError, InputError
+from grasp_xl.errors import InfeasibleError, InputError, Problem
 from grasp_xl.search.mutation import random_chromosome
 from grasp_xl.space import ElementKind, FloatArray
 from grasp_xl.task import Task, settle
@@ -15,14 +15,18 @@ from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book
 from grasp_xl.workbook.carrying import is_usable
 from grasp_xl.workbook.cells import Source
+from grasp_xl.workbook.inputs import changed_inputs, trade_off_rows
 from grasp_xl.workbook.losses import Written, filled_cells, refuse_losses
 from grasp_xl.workbook.package import Package
+from grasp_xl.workbook.picker import NO_PICKS
 from grasp_xl.workbook.reading_run import (
     SavedRun,
     largest_listed,
+    logged_values,
     refuse_other_inputs,
     written_children,
 )
+from grasp_xl.workbook.trade_offs_sheet import TradeOffs
 from grasp_xl.workbook.writing import export_workbook
 
 
@@ -49,7 +53,7 @@ def _as_written(book: Book) -> Written:
     if shown:
         children = written_children(book.source, task.space) or shown.children
         result = replace(result, matrix=shown.matrix, children=children)
-    return Written(*written_book(task, result, was, now()), same_inputs)
+    return Written(*written_book(task, result, was, now(), was.trade_offs), same_inputs)
 
 
 def _task_of_its_run(book: Book) -> Task | None:
@@ -86,7 +90,7 @@ def _of_its_sizes(book: Book) -> Book:
         parameters=replace(book.parameters, children=max(2, children)),
         user_chromosome=None,
         what_if=None,
-        picked=None,
+        picks=NO_PICKS,
     )
 
 
@@ -103,6 +107,18 @@ def _with_places(kind: ElementKind, number: int) -> ElementKind:
         overlap = np.concatenate([overlap, np.full(len(gone), np.nan)])
     footprints = np.vstack([kind.footprints_mm, gone])
     return replace(kind, footprints_mm=footprints, overlap=overlap)
+
+
+def kept_trade_offs(book: Book, task: Task) -> tuple[TradeOffs | None, list[Problem]]:
+    """Return the trade-offs of a workbook; none, and a warning, where they are of other inputs."""
+    if book.trade_offs is None:
+        return None, []
+    changed = changed_inputs(task, logged_values(book.source), trade_off_rows(task))
+    if not changed:
+        return book.trade_offs, []
+    found = f"designs of other inputs: {'; '.join(changed)}"
+    hint = "the sheet is left out; make it anew with grasp-xl front"
+    return None, [Problem(f"sheet {layout.TRADE_OFFS!r}", found, "those of the workbook", hint)]
 
 
 def saved_run_of(book: Book, task: Task) -> SavedRun:

@@ -11,6 +11,7 @@ from grasp_xl.task import Task
 from grasp_xl.workbook.book import Book
 from grasp_xl.workbook.carrying import is_usable
 from grasp_xl.workbook.run_log import Origin
+from grasp_xl.workbook.trade_offs_sheet import TradeOffs
 from grasp_xl.workbook.writing import Filled, full_workbook
 
 
@@ -43,7 +44,13 @@ def not_begun(task: Task, state: State | None = None) -> Result:
     return search(task.space, task.rules, task.settings, benchmark, stop, state=state)
 
 
-def written_book(task: Task, result: Result, book: Book, began: datetime) -> tuple[bytes, Filled]:
+def written_book(
+    task: Task,
+    result: Result,
+    book: Book,
+    began: datetime,
+    trade_offs: TradeOffs | None = None,
+) -> tuple[bytes, Filled]:
     """Return the full workbook of a task and its result, and which of its cells are filled."""
     source = book.source.package
     name = Path(source.name).name.encode(errors="backslashreplace").decode()
@@ -53,8 +60,9 @@ def written_book(task: Task, result: Result, book: Book, began: datetime) -> tup
         result,
         Origin(name, source.sha256, began, now()),
         what_if=book.what_if,
-        picked=book.picked,
+        picks=book.picks,
         stale_user=user if user and not is_usable(user, task.space) else None,
+        trade_offs=trade_offs,
     )
 
 

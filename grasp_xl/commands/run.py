@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from grasp_xl.commands.keeping import refuse_to_lose, saved_run_of
+from grasp_xl.commands.keeping import kept_trade_offs, refuse_to_lose, saved_run_of
 from grasp_xl.commands.output import Output, now, written_book
 from grasp_xl.commands.preparing import Active, prepare, refuse_infeasible, with_floor_warnings
 from grasp_xl.errors import Problem
@@ -62,6 +62,8 @@ def run_file(
     task = prepare(book, options, grasp)
     saved = saved_run_of(book, task) if go_on else None
     task = replace(task, warnings=(*task.warnings, *(_gaps(saved.state) if saved else ())))
+    trade_offs, stale = kept_trade_offs(book, task)
+    task = replace(task, warnings=(*task.warnings, *stale))
     refuse_infeasible(task)
     task = with_floor_warnings(task, floors(task.space, task.rules.requirements))
     if output.in_place:
@@ -77,7 +79,7 @@ def run_file(
     )
     if saved and result.state.generation == saved.state.generation:
         result = replace(result, matrix=saved.matrix, children=saved.children)
-    save(written_book(task, result, book, began)[0], output.path)
+    save(written_book(task, result, book, began, trade_offs)[0], output.path)
     if output.history:
         save(result.history().to_csv(index=False).encode(), output.history)
     return task, result, time.perf_counter() - clock

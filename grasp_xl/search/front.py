@@ -200,7 +200,7 @@ def covers(terms: FloatArray) -> IntArray:
 
 @dataclass(eq=False, slots=True)
 class _Met:
-    """A grasp that a search met: the weights of which it is the optimum, and whether it is proved."""
+    """A grasp that a search met, and what is proved of it."""
 
     grasp: Grasp
     proved: bool = False
@@ -275,8 +275,9 @@ class _Finder:
         """Return the chromosomes that nothing among them dominates, ``(n, kinds, 1 + slots)``."""
         measured = measure_rows(self._tables, genes)
         feasible = measured[:, 5] == 1
-        terms = measured[feasible, 1:5]
-        return genes[feasible][covers(terms) == np.arange(len(terms))]
+        usable, terms = genes[feasible], measured[feasible, 1:5]
+        first: IntArray = usable[covers(terms) == np.arange(len(terms))]
+        return first
 
     def meet(self, chromosomes: Iterable[Chromosome]) -> None:
         """Take in grasps that a search met."""

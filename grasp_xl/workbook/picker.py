@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.workbook.layout import KINDS, TABLE_ROW, TRADE_OFFS, VALID_DESIGNS, Area
@@ -161,6 +162,16 @@ class PickHint:
 DESIGN_PICK = Picker(VALID_DESIGNS, "DesignPick")
 TRADE_OFF_PICK = Picker(TRADE_OFFS, "TradeOffPick")
 """The cells of the two lists; what is picked of the second is on the What-if card."""
+
+
+class Picks(NamedTuple):
+    """The designs that are picked of the two lists, None where none is."""
+
+    design: Chromosome | None = None
+    trade_off: Chromosome | None = None
+
+
+NO_PICKS = Picks()
 
 
 def constant(chromosome: Chromosome) -> Formulas:

@@ -38,6 +38,9 @@ WHAT_IF_WRITTEN = "WhatIfWritten"
 BENCHMARK_WRITTEN = "BenchmarkWritten"
 """The benchmark's genes as we wrote them, by which typing over an assigned one is told apart."""
 
+TRADE_OFFS_HASH = "TradeOffsHash"
+"""Hash of the trade-offs as we wrote them, by which edited ones are told apart."""
+
 VALUE_WIDTH = 90
 """Width of the column of values: at least as many characters to a line."""
 
@@ -53,9 +56,17 @@ class Origin:
 
 
 def write_run_log(
-    pen: Pen, task: Task, result: Result, origin: Origin, what_if: Chromosome
+    pen: Pen,
+    task: Task,
+    result: Result,
+    origin: Origin,
+    what_if: Chromosome,
+    trade_offs: str = "",
 ) -> None:
-    """Write the sheet: a label, a value, and for some a defined name."""
+    """Write the sheet: a label, a value, and for some a defined name.
+
+    ``trade_offs`` is the hash of the list of trade-offs, where there is one.
+    """
     state, best = result.state, result.best
     interrupted = " (INTERRUPTED: best so far)" if result.stop_reason == "interrupted" else ""
     rows: list[tuple[str, CellValue | datetime, str]] = [
@@ -84,6 +95,8 @@ def write_run_log(
         ("Exact bound", None, ""),
         ("Exact gap", None, ""),
     ]
+    if trade_offs:
+        rows.append(("Hash of the trade-offs", trade_offs, TRADE_OFFS_HASH))
     rows += [("Warning", str(warning), "") for warning in task.warnings]
     pen.write(0, 0, "RUN LOG", Style.TITLE)
     for row, (label, value, name) in enumerate(rows, 2):
