@@ -28,8 +28,8 @@ from grasp_xl.space import FloatArray, IntArray, OptionSpace
 DEFAULT_GRID = 4
 """Steps from one criterion alone to another: 35 weighted sums of four criteria."""
 
-GENERATIONS = 10_000
-"""Of the genetic run before each exact search: a tenth of a second."""
+GENERATIONS = 3_000
+"""Of the genetic run under each weighted sum: some hundredths of a second."""
 
 FIRST_EFFORT = 100
 MORE_EFFORT = 4

@@ -49,9 +49,9 @@ WEIGHTS = tuple(f"Weight {label}" for label in FITNESS_HEADER[1:])
 TOLD_ROW = 1
 EXPLAINED_ROW = TABLE_ROW - 1
 EXPLAINED = (
-    "proved: of all grasps none is better in a criterion and no worse in the others.  found: no "
-    "grasp is known that is.  Weights: of all grasps this one has the least sum of weight times "
-    "normalised value."
+    "proved: no grasp of all is better in one criterion and no worse in the others.  found: no "
+    "such grasp is known.  Weights: no grasp of all has a lower sum of weight times normalised "
+    "value."
 )
 HINT = PickHint(
     "Type a No. of the list: the two rows below and the What-if card show that design. Empty: the "
@@ -129,9 +129,9 @@ def write_trade_offs(
     rows = max(1, len(designs))
     pen.write(0, 0, "TRADE-OFFS", Style.TITLE)
     pen.write(TOLD_ROW, 0, trade_offs.told, Style.NOTE)
-    numbers = trade_offs.number_of(picked)
+    number = trade_offs.number_of(picked)
     others = blank_like(DESIGN_PICK.picked_genes(space.gene_slots), unpicked)
-    TRADE_OFF_PICK.write(pen, rows, numbers, picked or unpicked, others, HINT)
+    TRADE_OFF_PICK.write(pen, rows, number, picked or unpicked, others, HINT)
     pen.write(EXPLAINED_ROW, 0, EXPLAINED, Style.NOTE)
     for row, (design, grasp) in enumerate(zip(designs, grasps, strict=True), TABLE_ROW + 1):
         for column, (value, style) in enumerate(_cells(task, design, grasp)):
@@ -178,20 +178,20 @@ def _charts(
 ) -> None:
     terms = [grasp.terms for grasp in grasps]
     shapes = [(each.deviation, each.structure, each.cost) for each in terms]
-    found = [
-        (each.cost, each.moment, int(not design.proved))
+    proofs = [
+        (each.moment, each.cost, int(not design.proved))
         for each, design in zip(terms, designs, strict=True)
     ]
     charts = (
         structure_against_deviation("Structure against deviation", shapes),
         Scatter(
-            "Residual moment against cost",
-            "Cost ($)",
+            "Cost against residual moment",
             "Residual Moment (N-mm)",
-            Style.MONEY,
+            "Cost ($)",
             Style.TORQUE,
+            Style.MONEY,
             [PROVED, FOUND],
-            found,
+            proofs,
         ),
     )
     left = place.column + place.columns + 1
