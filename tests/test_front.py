@@ -124,7 +124,7 @@ def test_a_front_does_not_depend_on_the_number_of_cores(cores, monkeypatch):
 
 
 def test_the_time_limit_is_kept():
-    """To within half a second, however hard a sum is; what is listed then is still true."""
+    """To within half a second, however hard a sum is; nothing listed then dominates another."""
     space, rules = plate(cups=200, magnets=200), some_rules(fos=9.0)
     benchmark = from_active(space, [(1, 50, 90), (2, 110, 150)])
     for seconds in (0.0, 2.0):

@@ -147,8 +147,6 @@ def test_a_list_that_was_edited_is_never_kept(
         "D9": 3 if openpyxl.load_workbook(book)[TRADE_OFFS]["D9"].value != 3 else 2,
     }
     edit(book, lambda opened: opened[TRADE_OFFS].__setitem__(cell, value[cell]))
-    if cell == "B9" and listed(book)[0][1] != "found":
-        pytest.fail("the edit was not made")
     assert run_in_place(book) == 3
     assert "the sheet 'Trade-offs'" in capsys.readouterr().err
 
