@@ -28,6 +28,7 @@ class Terms(NamedTuple):
 
 
 TERMS = Terms._fields
+EQUAL_WEIGHTS = Terms(1.0, 1.0, 1.0, 1.0)
 UNITS = {"cost": "$", "moment": "N-mm", "deviation": "mm", "structure": "mm"}
 DIVERGENCE = "divergence"
 
@@ -131,22 +132,32 @@ class Goals:
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """Everything by which a grasp is judged."""
+    """Everything by which a grasp is judged.
+
+    Parameters
+    ----------
+    goals : Goals
+    requirements : Requirements
+    criterion : Criterion
+    weights : Terms
+        Factor of each term in the minimised sum, >= 0; 0 leaves a term out.
+    """
 
     goals: Goals
     requirements: Requirements = field(default_factory=Requirements)
     criterion: Criterion = field(default_factory=Criterion)
+    weights: Terms = EQUAL_WEIGHTS
 
     @property
     def scales(self) -> Terms:
         """Divisor of each term in the minimised sum; infinity leaves a term out."""
-        if self.criterion.single:
-            return Terms(*(1.0 if term in self.criterion.terms else math.inf for term in TERMS))
-        included = self.criterion.terms - self.goals.dropped
+        single, included = self.criterion.single, self.criterion.terms
+        if not single:
+            included -= self.goals.dropped
         return Terms(
             *(
-                goal if term in included else math.inf
-                for term, goal in zip(TERMS, self.goals.base, strict=True)
+                (1.0 if single else goal) / weight if weight and term in included else math.inf
+                for term, goal, weight in zip(TERMS, self.goals.base, self.weights, strict=True)
             )
         )
 

@@ -28,7 +28,7 @@ from grasp_xl.search import stop
 from grasp_xl.workbook import cells, reading_ga
 
 SAMPLES = Path(__file__).parents[1] / "workbooks"
-COMMANDS = ("check", "new", "evaluate", "run", "solve")
+COMMANDS = ("check", "new", "evaluate", "run", "solve", "front")
 GRASP_KEYS = {
     *("suction", "magnets", "genes", "force_n", "weight_n", "fos", "cost", "moment", "deviation"),
     *("structure", "divergence", "clearance", "centre_of_force", "normalised", "feasible"),

@@ -177,6 +177,8 @@ def test_json_has_the_documented_keys(folder: Path, capsys: pytest.CaptureFixtur
     assert set(told("run", book, "-o", output, "--generations", "9")) == keys_of("JSON of run")
     assert set(told("check", book)) == keys_of("JSON of check")
     assert set(told("solve", book)) == keys_of("JSON of solve")
+    front = told("front", book, "--time-limit", "0")
+    assert set(front) == keys_of("JSON of front")
     added = {"error", "where", "hint"}
     assert set(told("check", book, "--fos", "99")) == keys_of("JSON of check") | added
     assert set(told("solve", book, "--fos", "99")) == keys_of("JSON of solve") | added
@@ -220,7 +222,10 @@ def documented_names() -> list[str]:
 def written_names(folder: Path) -> dict[str, layout.Area]:
     """Return the names of a full workbook with a proof, written now, and their cells."""
     book = folder / "names.xlsx"
-    assert main(["solve", str(folder / "bracket.xlsx"), "-o", str(book), "--quiet"]) == 0
+    command = ["front", str(folder / "bracket.xlsx"), "-o", str(book), "--time-limit", "0"]
+    assert main([*command, "--quiet"]) == 0
+    in_place = ["run", str(book), "--in-place", "--generations", "10", "--quiet"]
+    assert main(in_place) == 0
     names = openpyxl.load_workbook(book).defined_names
     return {name: layout.area_of(str(names[name].attr_text)) for name in names}
 
@@ -238,7 +243,7 @@ def test_every_defined_name_is_documented_and_no_other(
 def test_every_label_and_sheet_is_documented() -> None:
     documented = literals(WORKBOOK)
     labels = {field.label for field in FIELDS} | {layout.TITLE, layout.ASSIGNED_MARK}
-    assert labels | set(layout.SHEETS) <= set(documented)
+    assert labels | {*layout.SHEETS, layout.TRADE_OFFS} <= set(documented)
 
 
 def test_cells_are_where_the_page_says(written_names: dict[str, layout.Area]) -> None:

@@ -33,7 +33,6 @@ from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook import grasp_sheet, layout
 from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.calc_sheet import CalcBlock
-from grasp_xl.workbook.designs_sheet import GENE_COLUMN, PICK_NAME, PICK_ROW
 from grasp_xl.workbook.grasp_sheet import Picture
 from grasp_xl.workbook.layout import (
     APPROXIMATION_COLUMN,
@@ -50,6 +49,7 @@ from grasp_xl.workbook.layout import (
     Card,
     Layout,
 )
+from grasp_xl.workbook.picker import DESIGN_PICK, GENE_COLUMN, PICK_ROW
 
 SAMPLES = Path(__file__).parents[1] / "workbooks"
 NAMES = ("bracket", "door_frame", "panel", "tunnel_cover")
@@ -741,13 +741,13 @@ def test_a_picked_design_is_loaded(opened, bracket):
     assert opened.read(rows) == best
     designs = int(opened.value("ValidDesignsFound"))
     for number in (1, designs // 2, designs):
-        opened.enter({PICK_NAME: number})
+        opened.enter({DESIGN_PICK.name: number})
         (listed,) = opened.read(Area(VALID_DESIGNS, TABLE_ROW + number, GENE_COLUMN, 1, 12))
         assert opened.read(rows) == opened.read("WhatIf") == [listed[:6], listed[6:]]
         grasp = evaluate(task.space, task.rules, genes_of(opened.read("WhatIf")))
         assert missed(opened.read(GA_CELLS), PLAN.what_if, card_values(task, grasp)) == []
     for nonsense in (0, designs + 1, "abc", None):
-        opened.enter({PICK_NAME: nonsense})
+        opened.enter({DESIGN_PICK.name: nonsense})
         assert opened.read(rows) == opened.read("WhatIf") == best
 
 
@@ -772,12 +772,12 @@ def test_two_gene_rows_are_pasted_as_they_are(what, bracket, office, tmp_path):
     rows = {"the picked rows": (PICK_ROW + 2, 1), "the rows below the list": (below, GENE_COLUMN)}
     wanted, first = listed_genes(office, number), listed_genes(office, 1)
     assert wanted != first
-    office.enter({PICK_NAME: number})
+    office.enter({DESIGN_PICK.name: number})
     office.paste(Area(VALID_DESIGNS, *rows[what], 2, 6), USER)
     assert office.read(USER) == wanted
     saved = office.save(tmp_path / "pasted.xlsx")
     assert judged_user_grasp(saved) == genes_of(wanted)
-    office.enter({PICK_NAME: 1})
+    office.enter({DESIGN_PICK.name: 1})
     assert office.read(USER) == (first if what == "the picked rows" else wanted)
 
 

@@ -13,8 +13,8 @@ from bad_workbooks import tiny_export
 
 from grasp_xl.cli.program import main
 from grasp_xl.workbook.book import Book, read_book
-from grasp_xl.workbook.designs_sheet import GENE_COLUMN, PICK_ROW
 from grasp_xl.workbook.layout import TABLE_ROW
+from grasp_xl.workbook.picker import GENE_COLUMN, PICK_ROW
 
 Genes = list[list[int]]
 

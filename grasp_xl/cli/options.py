@@ -25,6 +25,9 @@ MOST_CHILDREN = 50
 MOST_SEED = 2**53
 """The bounds of the workbook's cells; a test holds them equal."""
 
+MOST_GRID = 20
+"""Most divisions of the weights of ``front``: 1,771 sums."""
+
 MOST_DESIGNS = 1000
 """Most designs that ``solve`` lists."""
 
@@ -143,6 +146,16 @@ MaybeBook = Annotated[
         parser=_file("-o"),
         metavar="FILE",
         help="Workbook to write (default NAME-result.xlsx).",
+    ),
+]
+BookIfAny = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        parser=_file("-o"),
+        metavar="FILE",
+        help="Workbook to write (default: none).",
     ),
 ]
 Cups = Annotated[
@@ -270,6 +283,24 @@ Seconds = Annotated[
         _number("--time-limit", f"a number from 0 to {MOST:g}", least=0),
         "SECONDS",
         "Stop after so many seconds of search.",
+    ),
+]
+FrontSeconds = Annotated[
+    float,
+    _option(
+        "--time-limit",
+        _number("--time-limit", f"a number from 0 to {MOST:g}", least=0),
+        "SECONDS",
+        "Stop after so many seconds of search (default 30).",
+    ),
+]
+Grid = Annotated[
+    int,
+    _option(
+        "--grid",
+        _whole("--grid", 1, MOST_GRID),
+        "N",
+        "Steps of the weights from 0 to 1 (default 4: 35 weighted sums).",
     ),
 ]
 DesignCount = Annotated[

@@ -12,6 +12,7 @@ from grasp_xl.rules import TERMS, Rules
 
 if TYPE_CHECKING:
     from grasp_xl.commands.check import Checked
+    from grasp_xl.commands.front import FoundFront
     from grasp_xl.commands.run import Ran
     from grasp_xl.commands.solve import Solved
     from grasp_xl.grasp import Grasp
@@ -86,6 +87,28 @@ def solve_json(solved: Solved) -> Json:
         "seconds": solved.seconds,
         "output": str(solved.output) if solved.output else None,
         **(error_json(solved.obstacle) if solved.obstacle else {}),
+    }
+
+
+def front_json(found: FoundFront, output: str | None) -> Json:
+    """Return the trade-off front: its designs, and how much of it is proved."""
+    front, rules = found.front, found.task.rules
+    return {
+        "complete": front.complete,
+        "interrupted": found.interrupted,
+        "weighted_sums": front.sums,
+        "proved_sums": front.proved_sums,
+        "designs": [
+            {
+                **grasp_json(design.grasp, rules),
+                "proved": design.proved,
+                "weights": design.weights._asdict() if design.weights else None,
+            }
+            for design in front.designs
+        ],
+        "goals": goals_json(rules),
+        "seconds": found.seconds,
+        "output": output,
     }
 
 

@@ -19,14 +19,16 @@ from grasp_xl.compiled import is_compiled
 from grasp_xl.errors import Problem
 from grasp_xl.grasp import Grasp
 from grasp_xl.rounding import percent
-from grasp_xl.rules import SLACK, TERMS, UNITS, Rules
+from grasp_xl.rules import DIVERGENCE, SLACK, TERMS, UNITS, Rules
 from grasp_xl.search.stop import Progress
 
 if TYPE_CHECKING:
     from grasp_xl.commands.check import Checked
+    from grasp_xl.commands.front import FoundFront
     from grasp_xl.commands.run import Ran
     from grasp_xl.commands.solve import Solved
     from grasp_xl.search.result import Result
+    from grasp_xl.task import Task
 
 REFRESH_SECONDS = 0.2
 
@@ -156,12 +158,49 @@ class ProofLine:
 @contextmanager
 def proof_progress(*, quiet: bool) -> Iterator[ProofLine]:
     """Give a line of an exact search; it shows on a terminal only."""
+    with _spinner(quiet=quiet) as bars:
+        yield ProofLine(bars)
+
+
+@contextmanager
+def _spinner(*, quiet: bool) -> Iterator[Bars | None]:
     if quiet or not _err.is_terminal:
-        yield ProofLine(None)
+        yield None
         return
     columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False))
     with Bars(*columns, console=_err, auto_refresh=False, transient=True) as bars:
-        yield ProofLine(bars)
+        yield bars
+
+
+class FrontLine:
+    """A line with what is proved of a trade-off front, and the time.
+
+    Parameters
+    ----------
+    bars : rich.progress.Progress or None
+        None shows nothing.
+    """
+
+    def __init__(self, bars: Bars | None) -> None:
+        self._bars = bars
+        self._began = time.perf_counter()
+
+    def __call__(self, sums: int, all_sums: int, proved: int, designs: int) -> None:
+        """Show how far the search is."""
+        if self._bars is None:
+            return
+        if not self._bars.task_ids:
+            self._bars.add_task("Proving", total=None)
+        told = f"{sums} of {all_sums} weighted sums and {proved} of {designs} designs proved, "
+        told += f"{time.perf_counter() - self._began:.0f} s"
+        self._bars.update(self._bars.task_ids[0], description=told, refresh=True)
+
+
+@contextmanager
+def front_progress(*, quiet: bool) -> Iterator[FrontLine]:
+    """Give a line of the search for a trade-off front; it shows on a terminal only."""
+    with _spinner(quiet=quiet) as bars:
+        yield FrontLine(bars)
 
 
 def grasps(columns: Sequence[tuple[str, Grasp]], rules: Rules) -> None:
@@ -224,28 +263,53 @@ def solve(solved: Solved) -> None:
     """Print the outcome of an exact search: its designs, goals and floors, and what is proved."""
     rules = solved.task.rules
     criterion = rules.criterion
-    headings = [f"{term}\n({UNITS[term]})" for term in TERMS]
-    headings.append(f"value\n({UNITS[criterion.single]})" if criterion.single else criterion.name)
-    table = Table("", box=SIMPLE, pad_edge=False, collapse_padding=True)
-    for kind in solved.task.space.kinds:
-        table.add_column(kind.name, min_width=len(kind.name))
-    for heading in headings:
-        table.add_column(heading, justify="right", no_wrap=True)
+    value = f"value\n({UNITS[criterion.single]})" if criterion.single else criterion.name
+    table = _ranking(solved.task, value)
     for rank, grasp in enumerate(solved.proof.designs, 1):
-        genes = (" ".join(map(str, indices)) or "-" for indices in grasp.chromosome.active)
-        numbers = (f"{number:,.6g}" for number in (*grasp.terms, grasp.value))
-        table.add_row(str(rank), *genes, *numbers)
-    goals = (
-        "left out" if term in rules.goals.dropped else f"{goal:,.6g}"
-        for term, goal in zip(TERMS, rules.goals.base, strict=True)
-    )
-    table.add_row("goal", "", "", *goals, "")
+        table.add_row(str(rank), *_shown(grasp), f"{grasp.value:,.6g}")
+    table.add_row("goal", "", "", *_shown_goals(rules), "")
     if solved.floors:
         table.add_row("floor", "", "", *(f"{floor:,.6g}" for floor in solved.floors), "")
     _out.print(table)
     line(proof_sentence(solved))
     if solved.output:
         line(f"Wrote {solved.output}.")
+
+
+def front(found: FoundFront, path: Path | None) -> None:
+    """Print a trade-off front: its designs, and what is proved of them."""
+    table = _ranking(found.task, DIVERGENCE, "proof")
+    for number, design in enumerate(found.front.designs, 1):
+        proof = "proved" if design.proved else "found"
+        divergence = f"{design.grasp.divergence:,.6g}"
+        table.add_row(str(number), *_shown(design.grasp), divergence, proof)
+    table.add_row("goal", "", "", *_shown_goals(found.task.rules), "", "")
+    _out.print(table)
+    line(found.told)
+    if path:
+        line(f"Wrote {path}.")
+
+
+def _ranking(task: Task, *more: str) -> Table:
+    """Make a table of grasps: a row each, genes, the four criteria, and more columns."""
+    table = Table("", box=SIMPLE, pad_edge=False, collapse_padding=True)
+    for kind in task.space.kinds:
+        table.add_column(kind.name, min_width=len(kind.name))
+    for heading in (*(f"{term}\n({UNITS[term]})" for term in TERMS), *more):
+        table.add_column(heading, justify="right", no_wrap=True)
+    return table
+
+
+def _shown(grasp: Grasp) -> list[str]:
+    genes = (" ".join(map(str, indices)) or "-" for indices in grasp.chromosome.active)
+    return [*genes, *(f"{number:,.6g}" for number in grasp.terms)]
+
+
+def _shown_goals(rules: Rules) -> list[str]:
+    return [
+        "left out" if term in rules.goals.dropped else f"{goal:,.6g}"
+        for term, goal in zip(TERMS, rules.goals.base, strict=True)
+    ]
 
 
 def proof_sentence(solved: Solved) -> str:

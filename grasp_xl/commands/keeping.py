@@ -7,23 +7,29 @@ from dataclasses import replace
 import numpy as np
 
 from grasp_xl.commands.output import Output, not_begun, now, written_book
-from grasp_xl.errors import InfeasibleError, InputError
+from grasp_xl.errors import InfeasibleError, InputError, Problem
 from grasp_xl.search.mutation import random_chromosome
+from grasp_xl.search.result import Result
 from grasp_xl.space import ElementKind, FloatArray
 from grasp_xl.task import Task, settle
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book
 from grasp_xl.workbook.carrying import is_usable
 from grasp_xl.workbook.cells import Source
+from grasp_xl.workbook.inputs import changed_inputs, trade_off_rows
 from grasp_xl.workbook.losses import Written, filled_cells, refuse_losses
 from grasp_xl.workbook.package import Package
+from grasp_xl.workbook.picker import NO_PICKS
+from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.reading_run import (
     SavedRun,
     largest_listed,
+    logged_values,
     refuse_other_inputs,
     shown_proof,
     written_children,
 )
+from grasp_xl.workbook.trade_offs_sheet import TradeOffs
 from grasp_xl.workbook.writing import export_workbook
 
 
@@ -51,7 +57,8 @@ def _as_written(book: Book) -> Written:
         children = written_children(book.source, task.space) or shown.children
         result = replace(result, matrix=shown.matrix, children=children)
     proved = shown_proof(book.source, task)
-    return Written(*written_book(task, result, was, now(), proved), same_inputs)
+    written = written_book(task, result, was, now(), proved=proved, trade_offs=was.trade_offs)
+    return Written(*written, same_inputs)
 
 
 def _task_of_its_run(book: Book) -> Task | None:
@@ -88,7 +95,7 @@ def _of_its_sizes(book: Book) -> Book:
         parameters=replace(book.parameters, children=max(2, children)),
         user_chromosome=None,
         what_if=None,
-        picked=None,
+        picks=NO_PICKS,
     )
 
 
@@ -105,6 +112,28 @@ def _with_places(kind: ElementKind, number: int) -> ElementKind:
         overlap = np.concatenate([overlap, np.full(len(gone), np.nan)])
     footprints = np.vstack([kind.footprints_mm, gone])
     return replace(kind, footprints_mm=footprints, overlap=overlap)
+
+
+def kept_trade_offs(book: Book, task: Task) -> tuple[TradeOffs | None, list[Problem]]:
+    """Return the trade-offs of a workbook; none, and a warning, where they are of other inputs."""
+    if book.trade_offs is None:
+        return None, []
+    changed = changed_inputs(task, logged_values(book.source), trade_off_rows(task))
+    if not changed:
+        return book.trade_offs, []
+    found = f"designs of other inputs: {'; '.join(changed)}"
+    hint = "the sheet is left out; make it anew with grasp-xl front"
+    return None, [Problem(f"sheet {layout.TRADE_OFFS!r}", found, "those of the workbook", hint)]
+
+
+def held_run(book: Book, task: Task) -> tuple[Result, Proved | None]:
+    """Return the run and the proof of this task that a workbook holds, else a run not begun."""
+    with suppress(InputError):
+        saved = saved_run_of(book, task)
+        result = not_begun(task, saved.state)
+        result = replace(result, matrix=saved.matrix, children=saved.children)
+        return result, shown_proof(book.source, task)
+    return not_begun(task), None
 
 
 def saved_run_of(book: Book, task: Task) -> SavedRun:

@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from grasp_xl.chromosome import Chromosome
-from grasp_xl.commands.keeping import refuse_to_lose
+from grasp_xl.commands.keeping import kept_trade_offs, refuse_to_lose
 from grasp_xl.commands.output import Output, not_begun, now, written_book
 from grasp_xl.commands.preparing import Active, prepare
 from grasp_xl.errors import InputError, Problem
@@ -38,10 +38,12 @@ def make_workbook(
         refuse_edited(output.path, force=output.force)
     usable = book.user_chromosome and is_usable(book.user_chromosome, book.space)
     task = prepare(book if usable else replace(book, user_chromosome=None), options, grasp)
-    task = replace(task, warnings=(*task.warnings, *stale))
+    trade_offs, left_out = kept_trade_offs(previous or book, task)
+    task = replace(task, warnings=(*task.warnings, *stale, *left_out))
     if previous:
         refuse_to_lose(output, previous)
-    save(written_book(task, not_begun(task), book, began)[0], output.path)
+    content, _ = written_book(task, not_begun(task), book, began, trade_offs=trade_offs)
+    save(content, output.path)
     return task
 
 
@@ -64,7 +66,7 @@ def _taken_over(book: Book, previous: Book) -> tuple[Book, list[Problem]]:
     typed: list[Chromosome | None] = []
     for chromosome, block in (
         (previous.user_chromosome, layout.USER_BLOCK),
-        (previous.what_if or previous.picked, layout.WHAT_IF),
+        (previous.what_if or previous.picks.trade_off or previous.picks.design, layout.WHAT_IF),
     ):
         genes = None
         if chromosome:

@@ -1,6 +1,6 @@
 """Where results go, and the workbook that is written there."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
@@ -11,8 +11,8 @@ from grasp_xl.task import Task
 from grasp_xl.workbook.book import Book
 from grasp_xl.workbook.carrying import is_usable
 from grasp_xl.workbook.proved import Proved
-from grasp_xl.workbook.reading_run import SavedRun
 from grasp_xl.workbook.run_log import Origin
+from grasp_xl.workbook.trade_offs_sheet import TradeOffs
 from grasp_xl.workbook.writing import Filled, full_workbook
 
 
@@ -45,14 +45,14 @@ def not_begun(task: Task, state: State | None = None) -> Result:
     return search(task.space, task.rules, task.settings, benchmark, stop, state=state)
 
 
-def resumed(task: Task, saved: SavedRun) -> Result:
-    """Return the result of a run that a workbook holds, without any more generations."""
-    result = not_begun(task, saved.state)
-    return replace(result, matrix=saved.matrix, children=saved.children)
-
-
 def written_book(
-    task: Task, result: Result, book: Book, began: datetime, proved: Proved | None = None
+    task: Task,
+    result: Result,
+    book: Book,
+    began: datetime,
+    *,
+    proved: Proved | None = None,
+    trade_offs: TradeOffs | None = None,
 ) -> tuple[bytes, Filled]:
     """Return the full workbook of a task and its result, and which of its cells are filled."""
     source = book.source.package
@@ -63,9 +63,10 @@ def written_book(
         result,
         Origin(name, source.sha256, began, now()),
         what_if=book.what_if,
-        picked=book.picked,
+        picks=book.picks,
         stale_user=user if user and not is_usable(user, task.space) else None,
         proved=proved,
+        trade_offs=trade_offs,
     )
 
 

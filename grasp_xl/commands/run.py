@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grasp_xl.commands.keeping import refuse_to_lose, saved_run_of
+from grasp_xl.commands.keeping import kept_trade_offs, refuse_to_lose, saved_run_of
 from grasp_xl.commands.output import Output, now, written_book
 from grasp_xl.commands.preparing import Active, prepare, refuse_infeasible, with_floor_warnings
 from grasp_xl.commands.solve import Solved
@@ -82,6 +82,8 @@ def run_file(
     task = prepare(book, options, grasp)
     saved = saved_run_of(book, task) if go_on else None
     task = replace(task, warnings=(*task.warnings, *(_gaps(saved.state) if saved else ())))
+    trade_offs, stale = kept_trade_offs(book, task)
+    task = replace(task, warnings=(*task.warnings, *stale))
     refuse_infeasible(task)
     task = with_floor_warnings(task, floors(task.space, task.rules.requirements))
     if output.in_place:
@@ -99,7 +101,8 @@ def run_file(
         result = replace(result, matrix=saved.matrix, children=saved.children)
     solved = prove(task, result) if prove else None
     shown = solved.shown if solved else None
-    save(written_book(task, result, book, began, shown)[0], output.path)
+    content, _ = written_book(task, result, book, began, proved=shown, trade_offs=trade_offs)
+    save(content, output.path)
     if output.history:
         save(result.history().to_csv(index=False).encode(), output.history)
     return Ran(task, result, solved, time.perf_counter() - clock)

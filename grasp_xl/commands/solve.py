@@ -1,14 +1,13 @@
 """How ``solve`` and ``run`` find the best grasp of all, and prove it."""
 
 import time
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grasp_xl.commands.keeping import saved_run_of
-from grasp_xl.commands.output import Output, not_begun, now, resumed, written_book
+from grasp_xl.commands.keeping import held_run, kept_trade_offs
+from grasp_xl.commands.output import Output, now, written_book
 from grasp_xl.commands.preparing import prepare, with_floor_warnings
-from grasp_xl.errors import InfeasibleError, InputError
+from grasp_xl.errors import InfeasibleError
 from grasp_xl.rules import Terms
 from grasp_xl.search.exact import ExactSettings, OnBound, Proof
 from grasp_xl.search.exact import solve as prove
@@ -20,7 +19,7 @@ from grasp_xl.search.stop import Interrupt
 from grasp_xl.search.unmet_goals import why_none_meets_all
 from grasp_xl.search.warm import load_exact_search
 from grasp_xl.task import Parameters, Task
-from grasp_xl.workbook.book import Book, read_book
+from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.proved import Proved, among
 from grasp_xl.workbook.saving import check_target, refuse_edited, save
 
@@ -113,6 +112,8 @@ def solve_file(
     ask = interrupt or Interrupt()
     book = read_book(path)
     task = prepare(book, options)
+    trade_offs, stale = kept_trade_offs(book, task) if output else (None, [])
+    task = replace(task, warnings=(*task.warnings, *stale))
     space, rules = task.space, task.rules
     known = [task.benchmark.chromosome] if task.benchmark.feasible else []
     load_exact_search()
@@ -136,7 +137,10 @@ def solve_file(
     solved = Solved(task, settings, proof, least, seconds, ask.asked, obstacle)
     if output is None or obstacle:
         return solved
-    content, _ = written_book(task, _held_run(book, task), book, started, solved.shown)
+    result, _ = held_run(book, task)
+    content, _ = written_book(
+        task, result, book, started, proved=solved.shown, trade_offs=trade_offs
+    )
     save(content, output.path)
     return replace(solved, output=output.path)
 
@@ -182,13 +186,6 @@ def prove_run(
     least = floors(task.space, task.rules.requirements)
     seconds = time.perf_counter() - clock
     return Solved(task, settings, proof, least, seconds, ask.asked, output=output)
-
-
-def _held_run(book: Book, task: Task) -> Result:
-    """Return the run that a workbook holds; one that has not begun if it is not of this task."""
-    with suppress(InputError):
-        return resumed(task, saved_run_of(book, task))
-    return not_begun(task)
 
 
 def _obstacle(task: Task, settings: ExactSettings) -> InfeasibleError | None:

@@ -14,9 +14,9 @@ from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout, run_log
 from grasp_xl.workbook.carrying import carried, is_usable
 from grasp_xl.workbook.cells import Source, cells_of
-from grasp_xl.workbook.designs_sheet import PICK_NAME
 from grasp_xl.workbook.inputs import genes_text
-from grasp_xl.workbook.layout import VALID_DESIGNS, Field
+from grasp_xl.workbook.layout import Field
+from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK, Picker, Picks
 from grasp_xl.workbook.reading import open_source, read_option_space
 from grasp_xl.workbook.reading_ga import (
     find_block,
@@ -24,14 +24,16 @@ from grasp_xl.workbook.reading_ga import (
     read_chromosome,
     read_parameters,
 )
-from grasp_xl.workbook.reading_pick import read_pick
+from grasp_xl.workbook.reading_pick import read_picks
 from grasp_xl.workbook.reading_run import (
     SavedRun,
     genes_as_they_stand,
     read_saved_run,
     shown_run,
 )
+from grasp_xl.workbook.reading_trade_offs import read_trade_offs
 from grasp_xl.workbook.stamp import is_untouched
+from grasp_xl.workbook.trade_offs_sheet import TradeOffs
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,8 +49,10 @@ class Book:
         None also where the program assigned it.
     what_if : Chromosome or None
         Genes that the designer typed into the What-if card.
-    picked : Chromosome or None
-        Design that the designer picked from the list.
+    picks : Picks
+        Designs that the designer picked from the lists.
+    trade_offs : TradeOffs or None
+        The list of the sheet ``Trade-offs``, as it was written.
     """
 
     source: Source
@@ -56,7 +60,8 @@ class Book:
     parameters: Parameters
     user_chromosome: Chromosome | None
     what_if: Chromosome | None
-    picked: Chromosome | None
+    picks: Picks
+    trade_offs: TradeOffs | None
 
     @property
     def warnings(self) -> tuple[Problem, ...]:
@@ -114,7 +119,8 @@ def read_previous(path: Path) -> Book | None:
 def _book(source: Source, *, stale_genes: bool) -> Book:
     space = read_option_space(source)
     parameters = read_parameters(source)
-    picked = read_pick(source)
+    picks = read_picks(source)
+    trade_offs = read_trade_offs(source)
 
     def typed(block: Field) -> Chromosome | None:
         if stale_genes and find_block(source, block):
@@ -124,18 +130,37 @@ def _book(source: Source, *, stale_genes: bool) -> Book:
 
     user = None if _is_assigned(source) else typed(layout.USER_BLOCK)
     what_if = typed(layout.WHAT_IF) if _is_typed(source, layout.WHAT_IF) else None
-    if picked:
-        picked, _ = carried(picked, space, space, VALID_DESIGNS)
-        if not (stale_genes or is_usable(picked, space)):
-            source.warn(
-                source.names[PICK_NAME].where,
-                "a design that the option space no longer has",
-                "one of its designs",
-                "the What-if card does not show it any longer; pick another",
-            )
-            picked = None
+    usable = Picks(
+        *(
+            _usable_pick(source, space, picker, picked, stale_genes=stale_genes)
+            for picker, picked in zip((DESIGN_PICK, TRADE_OFF_PICK), picks, strict=True)
+        )
+    )
     source.finish()
-    return Book(source, space, parameters, user, what_if, picked)
+    return Book(source, space, parameters, user, what_if, usable, trade_offs)
+
+
+def _usable_pick(
+    source: Source,
+    space: OptionSpace,
+    picker: Picker,
+    picked: Chromosome | None,
+    *,
+    stale_genes: bool,
+) -> Chromosome | None:
+    """Return a picked design in the option space's number of genes; None if that has it no more."""
+    if picked is None:
+        return None
+    fitted, _ = carried(picked, space, space, picker.sheet)
+    if stale_genes or is_usable(fitted, space):
+        return fitted
+    source.warn(
+        source.names[picker.name].where,
+        "a design that the option space no longer has",
+        "one of its designs",
+        "the What-if card does not show it any longer; pick another",
+    )
+    return None
 
 
 def _is_assigned(source: Source) -> bool:

@@ -15,7 +15,7 @@ from openpyxl import Workbook
 from openpyxl.chartsheet import Chartsheet
 
 from grasp_xl.errors import InputError, Problem
-from grasp_xl.workbook.layout import SHEETS, Area, Field, area_of
+from grasp_xl.workbook.layout import SHEETS, TRADE_OFFS, Area, Field, area_of
 from grasp_xl.workbook.package import MAX_ROWS, Package, open_workbook, sheet_rows
 
 MAX_NUMBER = 1e9
@@ -183,7 +183,7 @@ class Source:
     @property
     def foreign_sheets(self) -> list[str]:
         """Sheets that are none of ours."""
-        return [sheet for sheet in self.sheets if sheet not in SHEETS]
+        return [sheet for sheet in self.sheets if sheet not in (*SHEETS, TRADE_OFFS)]
 
     def grid(self, sheet: str, *, formulas: bool = False, rows: int = MAX_ROWS) -> Grid:
         """Return the values (or formulas) of a sheet or of its first rows, read once."""

@@ -17,10 +17,10 @@ from grasp_xl.workbook.cards import (
     title_cells,
     user_cells,
 )
-from grasp_xl.workbook.designs_sheet import picked_genes
 from grasp_xl.workbook.guidance import guide_blocks, guide_card, guide_parameters
 from grasp_xl.workbook.layout import GA, Area, Card, Layout
 from grasp_xl.workbook.pen import LEAST_SCALE, PAGE_WIDTH, ROW_HEIGHT, CellValue, Pen
+from grasp_xl.workbook.picker import DESIGN_PICK, Picker
 from grasp_xl.workbook.proved import NO_PROOF, NOT_PROVED, Proved
 from grasp_xl.workbook.run_log import PROOF_TITLE
 from grasp_xl.workbook.styles import Style
@@ -41,17 +41,20 @@ class Shown:
     what_if : Grasp
         Grasp of the What-if card.
     typed_what_if : bool
-        Whether the designer typed it; else its genes follow the picked valid design.
+        Whether the designer typed it; else its genes follow the picked design.
     stale_user : Chromosome or None
         User-defined genes that the option space does not have: shown, not used.
     proved : Proved or None
         What the exact search says; None where nobody asked it.
+    picker : Picker
+        Cell by which designs are picked.
     """
 
     what_if: Grasp
     typed_what_if: bool
     stale_user: Chromosome | None
     proved: Proved | None
+    picker: Picker = DESIGN_PICK
 
 
 def write_ga(
@@ -195,7 +198,7 @@ def _cards(plan: Layout, task: Task, result: Result, shown: Shown) -> dict[str, 
     what_if = live(len(cards), plan.what_if, layout.WHAT_IF.label, shown.what_if)
     what_if = replace(what_if, typed=True)
     if not shown.typed_what_if:
-        what_if = replace(what_if, gene_formulas=picked_genes(plan.gene_slots))
+        what_if = replace(what_if, gene_formulas=shown.picker.picked_genes(plan.gene_slots))
     cards[layout.WHAT_IF.name] = what_if
     if shown.proved and shown.proved.grasp:
         proved = live(len(cards), plan.proved, shown.proved.title, shown.proved.grasp)

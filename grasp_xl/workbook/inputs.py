@@ -10,6 +10,7 @@ import hashlib
 import json
 import math
 from collections.abc import Mapping
+from dataclasses import astuple
 
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.rules import TERMS
@@ -32,6 +33,7 @@ GENERATIONS = "Generations asked for"
 BENCHMARK = "Benchmark"
 BENCHMARK_GENES = "Benchmark grasp (genes)"
 LEFT_OUT = "Terms left out"
+REQUIREMENTS = ("FoS goal", "Minimum distance (mm)", "Density ratio", "Moment arm")
 GOALS = tuple(f"Goal: {term}" for term in TERMS)
 LISTS = (*(labels.locations_label for labels in layout.KINDS), layout.APPROXIMATION_LABEL)
 """Labels of rows."""
@@ -47,10 +49,7 @@ def parameter_rows(task: Task) -> dict[str, CellValue]:
         "1-in-n mutation": task.settings.one_in,
         "Children per generation": task.settings.children,
         GENERATIONS: task.generations,
-        "FoS goal": need.fos,
-        "Minimum distance (mm)": need.clearance_mm,
-        "Density ratio": need.density_ratio,
-        "Moment arm": need.moment_arm,
+        **dict(zip(REQUIREMENTS, astuple(need), strict=True)),
         "Criterion": task.rules.criterion.name,
         **dict(zip(GOALS, goals.base, strict=True)),
         LEFT_OUT: ", ".join(sorted(goals.dropped)) or "none",
@@ -91,11 +90,23 @@ def inputs_hash(task: Task) -> str:
     return hashlib.sha256(json.dumps(rows).encode()).hexdigest()
 
 
-def changed_inputs(task: Task, logged: Mapping[str, object]) -> list[str]:
-    """Say which inputs are others than a Run Log's; what only follows from them is left out."""
+def trade_off_rows(task: Task) -> dict[str, CellValue]:
+    """Return everything that the trade-offs depend on: what is searched, and how it is judged."""
+    rows = parameter_rows(task)
+    judged = {label: rows[label] for label in (*REQUIREMENTS, *GOALS, LEFT_OUT)}
+    return {**judged, **space_rows(task.space)}
+
+
+def changed_inputs(
+    task: Task, logged: Mapping[str, object], rows: Mapping[str, CellValue] | None = None
+) -> list[str]:
+    """Say which inputs are others than a Run Log's; what only follows from them is left out.
+
+    ``rows`` are the inputs that matter, by label; by default all that a run's course depends on.
+    """
     changed = {
         label: label if label in LISTS else f"{label} {_told(value)}, not {_told(before)}"
-        for label, value in input_rows(task).items()
+        for label, value in (rows or input_rows(task)).items()
         if not _alike(value, before := logged.get(label))
     }
     follows = {LEFT_OUT, *([BENCHMARK_GENES] if task.assigned else [])}

@@ -19,6 +19,10 @@ GRASP = "Grasp"
 RUN_LOG = "Run Log"
 CALC = "Calc"
 SHEETS = (OPTION_SPACE, GA, VALID_DESIGNS, FITNESS_TABLE, HISTORY, GRASP, RUN_LOG, CALC)
+"""Of every full workbook."""
+
+TRADE_OFFS = "Trade-offs"
+"""Sheet of the workbooks that ``front`` writes, behind the valid designs."""
 
 TITLE = "INPUT PARAMETERS (ALL DATA in GRAMS, MILLIMETERS, and NEWTONS)"
 

@@ -17,10 +17,10 @@ from pathlib import Path
 from grasp_xl.errors import OutputError
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank, normal, same_formula
-from grasp_xl.workbook.designs_sheet import PICK_NAME
 from grasp_xl.workbook.extras import AREA_NAMES, VALIDATIONS, Extra, not_among, read_extras
 from grasp_xl.workbook.layout import CALC, GA, GRASP, OPTION_SPACE, RUN_LOG, Area
 from grasp_xl.workbook.package import Package
+from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK
 from grasp_xl.workbook.reading import corner_cells, find_sheet
 from grasp_xl.workbook.table import DASH, NO, YES
 from grasp_xl.workbook.writing import Filled
@@ -47,7 +47,8 @@ INPUT_NAMES = (
     *(one.name for kind in KINDS for one in (*kind.section.fields, kind.diameter, kind.model)),
     *(kind.locations_name for kind in KINDS),
     *(layout.IDEAL_POLYGON, layout.APPROXIMATION_POLYGON),
-    *(layout.USER_BLOCK.name, layout.WHAT_IF.name, PICK_NAME),
+    *(layout.USER_BLOCK.name, layout.WHAT_IF.name),
+    *(DESIGN_PICK.name, TRADE_OFF_PICK.name),
 )
 """Cells whose values are read: what is typed there is kept."""
 

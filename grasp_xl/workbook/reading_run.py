@@ -34,7 +34,11 @@ CHANGES_LISTED = "Changes listed in the history"
 GENERATION = "Generation"
 """Header of the lists' column that says when."""
 
-LISTS = {layout.VALID_DESIGNS: layout.TABLE_ROW, layout.HISTORY: layout.HISTORY_ROW}
+LISTS = {
+    layout.VALID_DESIGNS: layout.TABLE_ROW,
+    layout.TRADE_OFFS: layout.TABLE_ROW,
+    layout.HISTORY: layout.HISTORY_ROW,
+}
 """Sheets of the lists with genes, and their header rows."""
 
 UNREADABLE = (ValueError, TypeError, IndexError, KeyError, OverflowError, RecursionError)

@@ -47,6 +47,8 @@ PROOF_ENDED = "ProofEnded"
 PROVED_GRASP = "ProvedGrasp"
 PROOF_TITLE = "ProofTitle"
 """Title of the exact search's card."""
+TRADE_OFFS_HASH = "TradeOffsHash"
+"""Hash of the trade-offs as we wrote them, by which edited ones are told apart."""
 
 VALUE_WIDTH = 90
 """Width of the column of values: at least as many characters to a line."""
@@ -73,8 +75,12 @@ def write_run_log(
     origin: Origin,
     what_if: Chromosome,
     proved: Proved | None,
+    trade_offs: str = "",
 ) -> None:
-    """Write the sheet: a label, a value, and for some a defined name."""
+    """Write the sheet: a label, a value, and for some a defined name.
+
+    ``trade_offs`` is the hash of the list of trade-offs, where there is one.
+    """
     state, best = result.state, result.best
     interrupted = " (INTERRUPTED: best so far)" if result.stop_reason == "interrupted" else ""
     rows: list[Row] = [
@@ -102,6 +108,8 @@ def write_run_log(
         ("State of the random stream", state.random_state, RANDOM_STATE),
         *_proof_rows(proved),
     ]
+    if trade_offs:
+        rows.append(("Hash of the trade-offs", trade_offs, TRADE_OFFS_HASH))
     rows += [("Warning", str(warning), "") for warning in task.warnings]
     pen.write(0, 0, "RUN LOG", Style.TITLE)
     for row, (label, value, name) in enumerate(rows, 2):

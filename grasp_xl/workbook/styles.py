@@ -98,6 +98,7 @@ class Style(Enum):
     FINE_MM = "fine_mm", {**_NUMBER, "num_format": '0.0000" mm"'}
     RATIO = "ratio", {**_NUMBER, "num_format": "0.0000"}
     PERCENT = "percent", {**_NUMBER, "num_format": "0.00##%"}
+    SHARE = "share", {**_NUMBER, "num_format": "0.00"}
     RESULT = "result", {**_NUMBER, "bold": True, "num_format": "#,##0.000"}
     DIVERGENCE = "divergence", {**_NUMBER, "bold": True, "num_format": "0.000"}
     TEXT = "text", {**_COMPUTED}

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from grasp_xl.chromosome import BLANK_GENE
+from grasp_xl.rules import SLACK
 from grasp_xl.search.result import gene_columns
 from grasp_xl.space import OptionSpace
 from grasp_xl.workbook.layout import KINDS, Area
@@ -74,3 +75,24 @@ def add_table(pen: Pen, name: str, area: Area, labels: list[str]) -> None:
     pen.filled |= {(area.row, area.column + column) for column in range(area.columns)}
     pen.sheet.repeat_rows(area.row)
     pen.sheet.set_row(area.row, 3 * ROW_HEIGHT)  # headers of two lines, and the filter buttons
+
+
+def add_colours(pen: Pen, listed: Area, norms: Area) -> None:
+    """Let normalised values above 1 stand out, and rows of a list that meet all goals.
+
+    ``norms`` are the normalised values; the divergence and ``Meets All Goals`` follow them.
+    """
+    last_row, last_column = listed.row + listed.rows - 1, listed.column + listed.columns - 1
+    above = f"=AND(ISNUMBER({norms.local}),{norms.local}>{1 + SLACK!r})"
+    meets = f'=${norms.cell(0, norms.columns + 1).local}="{YES}"'
+    for left, right, formula, style in (
+        (norms.column, norms.column + norms.columns - 1, above, Style.ABOVE),
+        (listed.column, last_column, meets, Style.PASSES),
+    ):
+        pen.sheet.conditional_format(
+            listed.row,
+            left,
+            last_row,
+            right,
+            {"type": "formula", "criteria": formula, "format": pen.formats.over(style)},
+        )

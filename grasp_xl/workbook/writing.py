@@ -22,10 +22,12 @@ from grasp_xl.workbook.history_sheet import write_history
 from grasp_xl.workbook.layout import Layout
 from grasp_xl.workbook.option_space_sheet import write_option_space
 from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.picker import DESIGN_PICK, NO_PICKS, TRADE_OFF_PICK, Picks
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.run_log import Origin, write_run_log
 from grasp_xl.workbook.stamp import PLACEHOLDER, STAMP_PROPERTY, stamped
 from grasp_xl.workbook.styles import FIXED_FONT, Formats
+from grasp_xl.workbook.trade_offs_sheet import TradeOffs, write_trade_offs
 
 Filled = dict[str, set[tuple[int, int]]]
 """Cells that a workbook fills, by sheet."""
@@ -37,9 +39,10 @@ def full_workbook(
     origin: Origin,
     *,
     what_if: Chromosome | None = None,
-    picked: Chromosome | None = None,
+    picks: Picks = NO_PICKS,
     stale_user: Chromosome | None = None,
     proved: Proved | None = None,
+    trade_offs: TradeOffs | None = None,
 ) -> tuple[bytes, Filled]:
     """Return the full workbook of a run, and the cells that it fills.
 
@@ -50,21 +53,24 @@ def full_workbook(
         Goes to the run log.
     what_if : Chromosome, optional
         Genes that the designer typed into the What-if card.
-    picked : Chromosome, optional
-        Valid design that the designer picked: it stays on the What-if card unless others were
-        typed, as the pick where it is in the list, else as typed genes.  Where nothing was typed or
-        picked, the card shows the best grasp: of the run, else of the exact search.
+    picks : Picks
+        Designs that the designer picked: the one that the What-if card shows stays there unless
+        others were typed, as the pick where it is in its list, else as typed genes.  Where nothing
+        was typed or picked, the card shows the best grasp: of the run, else of the exact search.
     stale_user : Chromosome, optional
         User-defined genes that this option space does not have: shown, not used.
     proved : Proved, optional
         What the exact search says.
+    trade_offs : TradeOffs, optional
+        Gives a sheet of its own.
     """
     best = result.best or (proved.grasp if proved else None) or result.benchmark
-    if picked and number_of(result, picked) is None:
-        what_if, picked = what_if or picked, None
-    on_card = what_if or picked
+    on_card = what_if or picks.trade_off or picks.design
+    picks = _still_listed(picks, result, trade_offs)
+    typed = what_if is not None or on_card not in (*picks, None)
     grasp = evaluate(task.space, task.rules, on_card) if on_card else best
-    shown = Shown(grasp, what_if is not None, stale_user, proved)
+    picker = TRADE_OFF_PICK if trade_offs else DESIGN_PICK
+    shown = Shown(grasp, typed, stale_user, proved, picker)
     plan = Layout(task.space.gene_slots, task.settings.children)
 
     file = io.BytesIO()
@@ -74,10 +80,19 @@ def full_workbook(
         f"Seed {task.settings.seed}, {result.state.generation:,} generations, "
         f"{origin.ended:%Y-%m-%d %H:%M}"
     )
-    pens = {name: Pen(book, formats, name, run) for name in layout.SHEETS}
+    sheets = list(layout.SHEETS)
+    if trade_offs:
+        sheets.insert(sheets.index(layout.VALID_DESIGNS) + 1, layout.TRADE_OFFS)
+    pens = {name: Pen(book, formats, name, run) for name in sheets}
     write_option_space(pens[layout.OPTION_SPACE], task.space, live=True)
     cards = write_ga(pens[layout.GA], plan, task, result, shown)
-    write_valid_designs(pens[layout.VALID_DESIGNS], book, result, best.chromosome, picked)
+    overruled = trade_offs.overruled if trade_offs else ("", "")
+    designs = pens[layout.VALID_DESIGNS]
+    write_valid_designs(designs, book, result, best.chromosome, picks.design, overruled)
+    if trade_offs:
+        unpicked = picks.design or best.chromosome
+        place = pens[layout.TRADE_OFFS]
+        write_trade_offs(place, book, task, trade_offs, unpicked, picks.trade_off)
     write_fitness_table(pens[layout.FITNESS_TABLE], result, proved)
     write_history(pens[layout.HISTORY], book, result, proved)
     benchmark = Picture("Benchmark grasp", result.benchmark, user_block(plan))
@@ -86,7 +101,9 @@ def full_workbook(
         benchmark,
     ]
     write_grasp(pens[layout.GRASP], book, task.space, pictures)
-    write_run_log(pens[layout.RUN_LOG], task, result, origin, best.chromosome, proved)
+    fingerprint = trade_offs.fingerprint if trade_offs else ""
+    log = pens[layout.RUN_LOG]
+    write_run_log(log, task, result, origin, best.chromosome, proved, fingerprint)
     blocks = [(layout.USER_BLOCK.label, benchmark.block, result.benchmark)]
     blocks += [(card.title, card.block, card.grasp) for card in cards.values()]
     write_calc(pens[layout.CALC], task.space, _inputs(task), blocks, plan)
@@ -94,6 +111,16 @@ def full_workbook(
     book.set_custom_property(STAMP_PROPERTY, PLACEHOLDER)
     book.close()
     return stamped(file.getvalue()), {name: pen.filled for name, pen in pens.items()}
+
+
+def _still_listed(picks: Picks, result: Result, trade_offs: TradeOffs | None) -> Picks:
+    """Return the picks that the lists to be written have."""
+    design, trade_off = picks
+    if design and number_of(result, design) is None:
+        design = None
+    if not (trade_offs and trade_offs.number_of(trade_off)):
+        trade_off = None
+    return Picks(design, trade_off)
 
 
 def export_workbook(space: OptionSpace) -> bytes:
