@@ -51,12 +51,15 @@ Minimise = Callable[[Statement, FloatArray, float, float], Answer]
 
 @dataclass(frozen=True, slots=True)
 class PeerProof:
-    """What a solver proved: the best grasp (None where none exists), and whether it is proved."""
+    """What a solver found within its time, and how often it was called.
 
-    proved: bool
+    ``best`` is the optimum where ``proved``, and then None where no grasp exists.
+    """
+
     best: Grasp | None
     seconds: float
     calls: int
+    proved: bool
 
 
 def prove(space: OptionSpace, rules: Rules, minimise: Minimise, seconds: float) -> PeerProof:
@@ -77,7 +80,7 @@ def prove(space: OptionSpace, rules: Rules, minimise: Minimise, seconds: float) 
         while bound < (limit := _limit(best, rules)):
             left = seconds - (time.perf_counter() - began)
             if left <= 0:
-                return PeerProof(False, best, seconds - left, calls)
+                return PeerProof(best, seconds - left, calls, proved=False)
             answer = minimise(statement, tangents, limit, left)
             calls += 1
             bound = answer.bound
@@ -89,7 +92,7 @@ def prove(space: OptionSpace, rules: Rules, minimise: Minimise, seconds: float) 
             seen.add(tuple(answer.used))
             tangents = np.vstack([tangents, tangent(statement, answer.used)])
             best = min(best or grasp, grasp, key=lambda each: each.value)
-    return PeerProof(True, best, time.perf_counter() - began, calls)
+    return PeerProof(best, time.perf_counter() - began, calls, proved=True)
 
 
 def _limit(best: Grasp | None, rules: Rules) -> float:

@@ -86,8 +86,12 @@ class Statement:
 class Elements:
     """All elements that a grasp may have, kind after kind.
 
-    ``kinds`` is their number; ``kind (n,)``, ``footprint (n,)`` (1-based), ``arm (n, 3)`` from the centroid (mm, z = 0 with the
-    plan arm), ``deviation (n,)`` (mm), ``plan (n, 2)`` (mm), ``distance (n, n)`` (mm).
+    Parameters
+    ----------
+    space, rules
+        From here: ``kinds``, their number; ``kind (n,)``; ``footprint (n,)``, 1-based; ``arm
+        (n, 3)`` from the centroid (mm, z = 0 with the plan arm); ``deviation (n,)`` (mm); ``plan
+        (n, 2)`` (mm); ``distance (n, n)`` in plan view (mm).
     """
 
     def __init__(self, space: OptionSpace, rules: Rules) -> None:
@@ -181,9 +185,7 @@ def _state_structure(
         ranks.append(int(rank[start, end]))
         uses[start].append(truss)
         uses[end].append(truss)
-        axis = (elements.plan[end] - elements.plan[start]) / length
-        offset = elements.plan - elements.plan[start]
-        branch = np.abs(axis[0] * offset[:, 1] - axis[1] * offset[:, 0]) / scale
+        branch = _branches(elements.plan, start, end) / scale
         for n, there in zip(left, places, strict=True):
             if n == 0:
                 continue
@@ -201,8 +203,15 @@ def _state_structure(
         result.row([chosen, a, b], [1, -far, -far], low=-far)
 
 
+def _branches(plan: FloatArray, start: int, end: int) -> FloatArray:
+    """Return the distance of each element to the line of a main truss, ``(n,)`` (mm)."""
+    x, y = (plan[end] - plan[start]) / np.linalg.norm(plan[end] - plan[start])
+    offset = plan - plan[start]
+    return np.abs(x * offset[:, 1] - y * offset[:, 0])
+
+
 def _ranks(distance: FloatArray) -> IntArray:
-    """Number the lengths in rising order, ``(n, n)``; those within the slack have one number."""
+    """Return the rank of each length, ``(n, n)``; lengths within the slack have the same one."""
     lengths, inverse = np.unique(distance, return_inverse=True)
     steps = lengths[1:] > lengths[:-1] * (1 + SLACK)
     return np.concatenate([[0], np.cumsum(steps)])[inverse].reshape(distance.shape)
