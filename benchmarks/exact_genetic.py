@@ -1,7 +1,7 @@
 """Who reaches the proved optimum in the same wall time: exact search, genetic search, frameworks.
 
-``python -m benchmarks.exact_genetic`` prints the tables of README.md: on each sample part, every
-search has the time that our proof took, and then a fixed time, a run for each seed.
+``python -m benchmarks.exact_genetic`` prints the table of README.md: on each sample part, every
+search has the time that our proof took, or ``--seconds``, for each of some seeds.
 """
 
 from __future__ import annotations
@@ -11,23 +11,22 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from types import ModuleType
 
 import numpy as np
 
-from benchmarks.peers import deap_ga, pygad_ga, pymoo_ga
+from benchmarks.peers import deap_ga, own_ways, pygad_ga, pymoo_ga
 from benchmarks.peers.numpy_rules import NumpyRules
 from benchmarks.samples import add_arguments, read
-from grasp_xl.rules import Rules
 from grasp_xl.search.exact import PROOF, ExactSettings, Proof, solve
 from grasp_xl.search.genetic import search, start
 from grasp_xl.search.result import load_stream
 from grasp_xl.search.stop import Target, TimeLimit
 from grasp_xl.search.warm import load_exact_search
-from grasp_xl.space import IntArray, OptionSpace
+from grasp_xl.space import IntArray
 from grasp_xl.task import Task
 
-PEERS: dict[str, ModuleType] = {"DEAP": deap_ga, "pymoo": pymoo_ga, "PyGAD": pygad_ga}
 ENDLESS = 10**9
 """Generations that no framework finishes in time."""
 
@@ -40,20 +39,24 @@ class Run:
     reached: float
 
 
+Search = Callable[[Task, int, float, float], Run]
+"""Given a task, a seed, seconds, and the value of the optimum."""
+
+OwnWay = Callable[[own_ways.AnyRules, int, int], None]
+"""Given rules, a seed, and a number of generations."""
+
+
 class Finished(BaseException):
     """The time is up, or the optimum reached."""
 
 
-class TimedRules(NumpyRules):
-    """Rules that keep the best value, and end a framework's run from within."""
+class Clock:
+    """Mixed into rules: keeps the best value, and ends a framework's run from within."""
 
-    def __init__(self, space: OptionSpace, rules: Rules, target: float) -> None:
-        super().__init__(space, rules)
-        self.target, self.best, self.ends = target, math.inf, math.inf
-
-    def begin(self, seconds: float) -> None:
+    def begin(self, seconds: float, target: float) -> None:
         """Start the clock of a run."""
-        self.best, self.ends = math.inf, time.perf_counter() + seconds
+        self.target, self.best = target, math.inf
+        self.ends = time.perf_counter() + seconds
 
     def value(self, genes: IntArray) -> float:
         """Return what the search minimises.
@@ -63,11 +66,19 @@ class TimedRules(NumpyRules):
         Finished
             If the time is up, or the optimum reached.
         """
-        value = super().value(genes)
+        value: float = super().value(genes)  # type: ignore[misc]
         self.best = min(self.best, value)
         if self.best <= self.target or time.perf_counter() >= self.ends:
             raise Finished
         return value
+
+
+class TimedRules(Clock, NumpyRules):
+    """Rules for the thesis's algorithm, which keeps the clearance by itself."""
+
+
+class TimedAnyRules(Clock, own_ways.AnyRules):
+    """Rules for any grasp."""
 
 
 def exact(task: Task, limit: float) -> tuple[Proof, float]:
@@ -92,65 +103,84 @@ def genetic(task: Task, seed: int, seconds: float, target: float) -> Run:
     return Run(value, result.seconds if value <= target else math.inf)
 
 
-def framework(peer: ModuleType, rules: TimedRules, task: Task, seed: int, seconds: float) -> Run:
-    """Run a framework from the same start with the same stream of random numbers."""
+def thesis_way(peer: ModuleType, task: Task, seed: int, seconds: float, target: float) -> Run:
+    """Run the thesis's algorithm in a framework, from our start with our random numbers."""
     state = start(task.space, replace(task.settings, seed=seed), task.benchmark.chromosome)
-    genes = np.array(state.parent.genes).ravel()
+    genes, stream = np.array(state.parent.genes).ravel(), load_stream(state.random_state)
+    rules = TimedRules(task.space, task.rules)
+    run = partial(peer.run, rules, stream, genes, task.settings.one_in, ENDLESS)
+    return timed(rules, run, seconds, target)
+
+
+def own_way(peer: OwnWay, task: Task, seed: int, seconds: float, target: float) -> Run:
+    """Run a framework's own algorithm."""
+    rules = TimedAnyRules(task.space, task.rules)
+    return timed(rules, partial(peer, rules, seed, ENDLESS), seconds, target)
+
+
+def timed(rules: Clock, run: Callable[[], object], seconds: float, target: float) -> Run:
+    """Run a framework until its time is up; tables have been made before the clock starts."""
     began = time.perf_counter()
-    rules.begin(seconds)
+    rules.begin(seconds, target)
     try:
-        peer.run(rules, load_stream(state.random_state), genes, task.settings.one_in, ENDLESS)
+        run()
     except Finished:
-        reached = time.perf_counter() - began
-    return Run(rules.best, reached if rules.best <= rules.target else math.inf)
+        took = time.perf_counter() - began
+    return Run(rules.best, took if rules.best <= target else math.inf)
 
 
-def report(name: str, runs: list[Run], optimum: float) -> None:
-    """Print the hits, the median time to the optimum over all runs, and the gaps."""
+SEARCHES: dict[str, Search] = {
+    "grasp_xl, genetic": genetic,
+    "DEAP, thesis's algorithm": partial(thesis_way, deap_ga),
+    "pymoo, thesis's algorithm": partial(thesis_way, pymoo_ga),
+    "PyGAD, thesis's algorithm": partial(thesis_way, pygad_ga),
+    "DEAP, its own": partial(own_way, own_ways.deap),
+    "pymoo, its own": partial(own_way, own_ways.pymoo),
+    "PyGAD, its own": partial(own_way, own_ways.pygad_),
+}
+
+
+def cell(runs: list[Run], optimum: float) -> str:
+    """Return the hits, and the median time (s) to the optimum or else the median gap."""
     hits = sum(run.reached < math.inf for run in runs)
-    median = float(np.median([run.reached for run in runs]))
-    gaps = [run.value / optimum - 1 for run in runs]
-    when = f"{median:.3f}" if median < math.inf else "-"
-    cells = f"{hits} of {len(runs)} | {when} | {np.median(gaps):.2%} | {max(gaps):.2%}"
-    print(f"| {name} | {cells} |", flush=True)
-
-
-def part(task: Task, title: str, said: argparse.Namespace) -> None:
-    """Print the tables of one part."""
-    proof, found = exact(task, said.limit)
-    optimum = proof.designs[0].value
-    target = optimum * (1 + PROOF)
-    rules = TimedRules(task.space, task.rules, target)
-    searches: dict[str, Callable[[int, float], Run]] = {
-        "grasp_xl, genetic": lambda seed, seconds: genetic(task, seed, seconds, target)
-    }
-    for name, peer in PEERS.items():
-        searches[name] = lambda seed, seconds, peer=peer: framework(  # type: ignore[misc]
-            peer, rules, task, seed, seconds
-        )
-    for seconds in (proof.seconds, said.seconds):
-        print(f"\n{title}, {seconds:.2f} s for each run\n")
-        print(
-            "| | optimum reached | median s | median gap | largest gap |\n|---|---:|---:|---:|---:|"
-        )
-        end = f"proved in {proof.seconds:.2f} s" if proof.gap == 0.0 else f"{proof.gap:.1%} open"
-        print(f"| grasp_xl, exact | {end} | {found:.3f} | 0.00% | 0.00% |")
-        for name, run in searches.items():
-            report(name, [run(seed, seconds) for seed in range(1, said.seeds + 1)], optimum)
+    reached = float(np.median([run.reached for run in runs]))
+    gap = float(np.median([run.value / optimum - 1 for run in runs]))
+    middle = f"{reached:.2f} s" if reached < math.inf else f"{gap:.1%}"
+    return f"{hits}/{len(runs)}, {middle}"
 
 
 def main() -> None:
-    """Print two tables a part."""
+    """Print a table: a row for each search, a column for each part."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    add_arguments(parser, limit=20.0)
-    parser.add_argument("--seconds", type=float, default=5.0, help="of the second table")
+    add_arguments(parser, limit=10.0)
+    parser.add_argument("--seconds", type=float, help="of each run; as our proof took by default")
     parser.add_argument("--seeds", type=int, default=5)
     said = parser.parse_args()
     load_exact_search()
-    for file in said.files:
-        task = read(file)
-        genetic(task, 1, 0.1, 0.0)  # compiled code is loaded before the clock starts
-        part(task, file.stem, said)
+    tasks = [read(file) for file in said.files]
+    proofs = [exact(task, said.limit) for task in tasks]
+    times = [said.seconds or proof.seconds for proof, _ in proofs]
+    print(
+        "| |",
+        " | ".join(f"{f.stem}, {t:.2f} s" for f, t in zip(said.files, times, strict=True)),
+        "|",
+    )
+    print("|---" * (1 + len(tasks)) + "|")
+    ends = [
+        f"found {found:.2f} s, "
+        + (f"proved {proof.seconds:.2f} s" if proof.gap == 0.0 else f"{proof.gap:.1%} open")
+        for proof, found in proofs
+    ]
+    print("| grasp_xl, exact |", " | ".join(ends), "|")
+    for name, run in SEARCHES.items():
+        run(tasks[0], 1, 0.1, 0.0)  # compiled code is loaded before the clock starts
+        cells = []
+        for task, (proof, _), seconds in zip(tasks, proofs, times, strict=True):
+            optimum = proof.designs[0].value
+            target = optimum * (1 + PROOF)
+            runs = [run(task, seed, seconds, target) for seed in range(1, said.seeds + 1)]
+            cells.append(cell(runs, optimum))
+        print(f"| {name} |", " | ".join(cells), "|", flush=True)
 
 
 if __name__ == "__main__":
