@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import shutil
+import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -200,13 +202,40 @@ def test_no_input_is_a_loss(book: Path, what: str) -> None:
     assert run_in_place(book) == 0
 
 
+def rename(book: Path, sheet: str, title: str) -> None:
+    """Give a sheet another name as Excel does it: all that refers to it follows."""
+    with zipfile.ZipFile(book) as package:
+        parts = {name: package.read(name) for name in package.namelist()}
+    own = f'<sheet name="{sheet}"'.encode(), f'<sheet name="{title}"'.encode()
+    referring = rf"'{sheet}'!|\b{sheet}!".encode(), f"'{title}'!".encode()
+    with zipfile.ZipFile(book, "w") as package:
+        for name, part in parts.items():
+            package.writestr(name, re.sub(*referring, part.replace(*own)))
+
+
+@pytest.mark.parametrize("sheet", ["Option Space", "GA", "History", "Run Log", "Calc"])
+def test_a_renamed_sheet_is_named_and_nothing_else(
+    book: Path, capsys: pytest.CaptureFixture[str], sheet: str
+) -> None:
+    """Without it, cells of ours could not be told from the designer's."""
+    rename(book, sheet, "Mine")
+    before = book.read_bytes()
+    assert run_in_place(book) == 3
+    told = capsys.readouterr().err
+    assert f"has no sheet {sheet!r} any more" in told
+    assert "holds what" not in told
+    assert book.read_bytes() == before
+
+
 SIZES = {
     "a place more": {"C11": 7, "D11": 20, "E11": 25, "F11": 10, "B16": 7},
     "a place less": {"D10": None, "E10": None, "F10": None, "B16": 5},
     "a larger maximum": {"B12": 7},
     "a smaller maximum": {"B20": 3},
+    "a corner more": {"P7": 5, "Q7": 0, "R7": -120, "S7": 10},
+    "a corner less": {"P6": None, "Q6": None, "R6": None, "S6": None},
 }
-"""What moves cards and lengthens lists: cells of the option space."""
+"""What moves cards, and makes lists and the polygon longer or shorter: cells of the option space."""
 
 
 @pytest.mark.parametrize("what", SIZES)

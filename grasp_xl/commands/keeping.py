@@ -9,7 +9,7 @@ import numpy as np
 from grasp_xl.commands.output import Output, not_begun, now, written_book
 from grasp_xl.errors import InfeasibleError, InputError
 from grasp_xl.search.mutation import random_chromosome
-from grasp_xl.space import ElementKind
+from grasp_xl.space import ElementKind, FloatArray
 from grasp_xl.task import Task, settle
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book
@@ -78,12 +78,21 @@ def _of_its_sizes(book: Book) -> Book:
     )
     return replace(
         book,
-        space=replace(book.space, kinds=tuple(kinds)),
+        space=replace(
+            book.space,
+            kinds=tuple(kinds),
+            approximation_polygon_mm=_any_polygon(names[layout.IDEAL_POLYGON].rows),
+        ),
         parameters=replace(book.parameters, children=max(2, children)),
         user_chromosome=None,
         what_if=None,
         picked=None,
     )
+
+
+def _any_polygon(corners: int) -> FloatArray:
+    angles = np.linspace(0, 2 * np.pi, corners, endpoint=False)
+    return np.column_stack([np.cos(angles), np.sin(angles), np.zeros(corners)])
 
 
 def _with_places(kind: ElementKind, number: int) -> ElementKind:

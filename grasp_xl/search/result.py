@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.grasp import Grasp
@@ -18,6 +19,9 @@ from grasp_xl.space import IntArray, OptionSpace
 
 if TYPE_CHECKING:
     import pandas as pd
+
+Rows = npt.NDArray[np.void]
+"""A structured array: a row a grasp, a field a column."""
 
 REPORT_GENERATIONS = (1, 10, 100, 1_000, 10_000, 50_000)
 """Generations of the thesis's fitness tables (tables 4 and 5)."""
@@ -122,26 +126,27 @@ class Result:
     seconds: float
 
     @cached_property
-    def _history(self) -> pd.DataFrame:
-        return frame(self.space, self.rules, self.state.changes)
+    def history_rows(self) -> Rows:
+        """The generations where the fittest changed, and the last one."""
+        rows = measured_rows(self.space, self.rules, self.state.changes)
+        if not len(rows) or rows["generation"][-1] == self.state.generation:
+            return rows
+        rows = np.append(rows, rows[-1:])
+        rows["generation"][-1] = self.state.generation
+        return rows
+
+    @cached_property
+    def design_rows(self) -> Rows:
+        """The valid-design list (section 5.2.5), oldest first."""
+        return measured_rows(self.space, self.rules, self.state.designs)
 
     def history(self) -> pd.DataFrame:
-        """Return the generations where the fittest changed, and the last one.
-
-        One row a change: ``generation``, ``fos``, the four terms, ``divergence`` (NaN where FoS or
-        clearance fails) and the genes.
-        """
-        import pandas as pd
-
-        rows = self._history
-        if rows.empty or rows["generation"].iloc[-1] == self.state.generation:
-            return rows
-        last = rows.iloc[[-1]].assign(generation=self.state.generation)
-        return pd.concat([rows, last], ignore_index=True)
+        """Return ``history_rows`` as a table: one row a change, columns as of `measured_rows`."""
+        return _table(self.history_rows)
 
     def valid_designs(self) -> pd.DataFrame:
-        """Return the valid-design list (section 5.2.5), oldest first, one row a design."""
-        return frame(self.space, self.rules, self.state.designs)
+        """Return ``design_rows`` as a table: one row a design, columns as of `measured_rows`."""
+        return _table(self.design_rows)
 
     def at_generation(self, generation: int) -> Chromosome:
         """Return the fittest of a generation that the run has done."""
@@ -167,10 +172,16 @@ def gene_columns(space: OptionSpace) -> list[str]:
     ]
 
 
-def frame(space: OptionSpace, rules: Rules, trace: Trace) -> pd.DataFrame:
-    """Make a table of a trace: its genes and what the criteria say of them."""
-    import pandas as pd
+def measured_rows(space: OptionSpace, rules: Rules, trace: Trace) -> Rows:
+    """Measure a trace: what the criteria say of its genes.
 
+    Returns
+    -------
+    Rows
+        ``(n,)``, fields ``generation``, ``fos``, the four terms, ``divergence``, what is normalised
+        of FoS and of each term (NaN where FoS or clearance fails), ``meets_all_goals``, and the
+        genes.
+    """
     measured = measure_rows(tabulate(space, rules), trace.genes)
     terms = measured[:, 1:5]
     goals = rules.goals
@@ -188,7 +199,16 @@ def frame(space: OptionSpace, rules: Rules, trace: Trace) -> pd.DataFrame:
     columns["meets_all_goals"] = meets
     genes = trace.genes.reshape(len(trace), len(gene_columns(space)))
     columns |= dict(zip(gene_columns(space), genes.T, strict=True))
-    return pd.DataFrame(columns)
+    rows = np.empty(len(trace), [(name, column.dtype) for name, column in columns.items()])
+    for name, column in columns.items():
+        rows[name] = column
+    return rows
+
+
+def _table(rows: Rows) -> pd.DataFrame:
+    import pandas as pd  # takes long to load, and a run needs no table
+
+    return pd.DataFrame(rows)
 
 
 def dump_stream(rng: np.random.Generator) -> str:

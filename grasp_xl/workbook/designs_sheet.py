@@ -5,13 +5,13 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterable
 from itertools import accumulate, pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.rules import SLACK, TERMS
-from grasp_xl.search.result import Result, gene_columns
+from grasp_xl.search.result import Result, Rows, gene_columns
 from grasp_xl.workbook.layout import (
     FITNESS_HEADER,
     KINDS,
@@ -35,9 +35,6 @@ from grasp_xl.workbook.table import (
     shown_gene,
     shown_number,
 )
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MAX_DESIGNS = 10_000
 """Valid designs that the sheet lists: the newest."""
@@ -129,7 +126,7 @@ def write_valid_designs(
 
     ``unpicked`` are the genes shown while no row is picked, ``picked`` the design picked before.
     """
-    designs = result.valid_designs().tail(MAX_DESIGNS)
+    designs = result.design_rows[-MAX_DESIGNS:]
     own_units = [label for _, _, label, _ in CRITERIA[:-1]]
     genes = gene_labels(result.space)
     labels = ["No.", "Generation", *genes, *own_units, *NORMALISED, "Divergence", "Meets All Goals"]
@@ -152,12 +149,13 @@ def write_valid_designs(
     _trade_off(pen, book, designs, chart)
 
 
-def _rows(pen: Pen, result: Result, designs: pd.DataFrame) -> None:
+def _rows(pen: Pen, result: Result, designs: Rows) -> None:
     genes = gene_columns(result.space)
     styles = gene_styles(result.space)
     names = [name for name, _, _, _ in CRITERIA[:-1]]
     looks = [style for _, _, _, style in CRITERIA[:-1]]
-    for row, design in enumerate(designs.to_dict("records"), TABLE_ROW + 1):
+    for row, values in enumerate(designs.tolist(), TABLE_ROW + 1):
+        design = dict(zip(designs.dtype.names or (), values, strict=True))
         pen.write(row, NUMBER_COLUMN, row - TABLE_ROW, Style.COUNT)
         pen.write(row, NUMBER_COLUMN + 1, int(design["generation"]), Style.COUNT)
         for column, (name, style) in enumerate(zip(genes, styles, strict=True), GENE_COLUMN):
@@ -234,15 +232,15 @@ def _slot_labels(slots: int) -> tuple[str, ...]:
     return ("Total #", *(f"Index {slot}" for slot in range(1, slots + 1)))
 
 
-def _rows_to_copy(pen: Pen, result: Result, designs: pd.DataFrame, top: int) -> None:
+def _rows_to_copy(pen: Pen, result: Result, designs: Rows, top: int) -> None:
     """Write both gene rows of every design as values, below all that a filter or sort touches."""
-    if designs.empty:
+    if not len(designs):
         return
     slots, columns = result.space.gene_slots, gene_columns(result.space)
     pen.write(top, 0, COPY_TITLE, Style.TITLE)
     pen.row(top + 1, 0, ("No.", None, *_slot_labels(slots)), Style.HEADER)
     first = top + 2
-    for number, design in enumerate(designs[columns].to_numpy().tolist(), 1):
+    for number, design in enumerate(designs[columns].tolist(), 1):
         genes = list(map(shown_gene, columns, design))
         for kind, (labels, style) in enumerate(zip(KINDS, GENE_ROW_STYLES, strict=True)):
             row, left = first + len(KINDS) * (number - 1) + kind, kind * (1 + slots)
@@ -270,7 +268,7 @@ def cost_bands(costs: Iterable[float]) -> list[tuple[float, float]]:
     return [(different[start], different[end - 1]) for start, end in pairwise((0, *ends))]
 
 
-def _trade_off(pen: Pen, book: Any, designs: pd.DataFrame, place: Area) -> None:  # noqa: ANN401 (untyped library)
+def _trade_off(pen: Pen, book: Any, designs: Rows, place: Area) -> None:  # noqa: ANN401 (untyped library)
     """Chart structure against deviation, a series a band of costs; its data stand beside it."""
     bands = cost_bands(designs["cost"].tolist())
     if not bands:
@@ -280,10 +278,10 @@ def _trade_off(pen: Pen, book: Any, designs: pd.DataFrame, place: Area) -> None:
     names = [" to ".join(dict.fromkeys(f"${cost:,.10g}" for cost in band)) for band in bands]
     pen.row(TABLE_ROW, left, ("Deviation (mm)", *names), Style.HEADER)
     lowest = [low for low, _ in bands]
-    records = zip(designs["deviation"], designs["structure"], designs["cost"], strict=True)
+    records = designs[["deviation", "structure", "cost"]].tolist()
     for row, (deviation, structure, cost) in enumerate(records, TABLE_ROW + 1):
-        pen.write(row, left, float(deviation), Style.RATIO)
-        pen.write(row, left + bisect_right(lowest, cost), float(structure), Style.TORQUE)
+        pen.write(row, left, deviation, Style.RATIO)
+        pen.write(row, left + bisect_right(lowest, cost), structure, Style.TORQUE)
     first, last = TABLE_ROW + 1, TABLE_ROW + len(designs)
     for number, (name, colour) in enumerate(zip(names, SEQUENCE, strict=False), left + 1):
         marker = {

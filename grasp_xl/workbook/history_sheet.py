@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from grasp_xl.search.result import Result, gene_columns
+from grasp_xl.search.result import Result, Rows, gene_columns
 from grasp_xl.workbook.layout import HISTORY, HISTORY_ROW, Area
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import BLUE, GREY, Style
@@ -23,9 +23,6 @@ from grasp_xl.workbook.table import (
     shown_gene,
     shown_number,
 )
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MAX_HISTORY = 100_000
 """Changes that the sheet lists; beyond that, the newest and the fitness table's generations."""
@@ -49,7 +46,7 @@ def write_history(pen: Pen, book: Any, result: Result) -> None:  # noqa: ANN401 
     pen.write(0, 0, "HISTORY: the generations where the fittest grasp changed", Style.TITLE)
     looks = (Style.COUNT, *(style for _, _, _, style in CRITERIA), *gene_styles(result.space))
     columns = ["generation", *(name for name, _, _, _ in CRITERIA), *genes]
-    for row, values in enumerate(history[columns].itertuples(index=False), HISTORY_ROW + 1):
+    for row, values in enumerate(history[columns].tolist(), HISTORY_ROW + 1):
         for number, (name, value, style) in enumerate(zip(columns, values, looks, strict=True)):
             shown = shown_gene(name, value) if name in genes else shown_number(value)
             pen.write(row, number, shown, style)
@@ -71,40 +68,40 @@ def write_history(pen: Pen, book: Any, result: Result) -> None:  # noqa: ANN401 
     pen.print_pages(listed, pictures=[charts])
 
 
-def _listed(result: Result) -> pd.DataFrame:
+def _listed(result: Result) -> Rows:
     """Return the newest rows of the history, and those of the fittest of a reported generation."""
-    history = result.history()
+    history = result.history_rows
     if len(history) <= MAX_HISTORY:
         return history
-    generations, reported = history["generation"].to_numpy(), result.report_generations()
+    generations, reported = history["generation"], result.report_generations()
     needed = np.searchsorted(generations, reported, side="right") - 1
     newest = np.arange(_first_newest(result), len(history))
-    return history.iloc[np.union1d(needed, newest)]
+    return history[np.union1d(needed, newest)]
 
 
 def _first_newest(result: Result) -> int:
     """Return the row of the history from which on the sheet lists all."""
     room = MAX_HISTORY - len(result.report_generations())
-    rows = len(result.history())
+    rows = len(result.history_rows)
     return rows - room if rows > MAX_HISTORY else 0
 
 
 def listed_from(result: Result) -> int:
     """Return the generation from which the sheet lists every change."""
     first = _first_newest(result)
-    generations = result.history()["generation"]
-    return max(result.state.complete_from, int(generations.iloc[first]) if first else 1)
+    generations = result.history_rows["generation"]
+    return max(result.state.complete_from, int(generations[first]) if first else 1)
 
 
-def _steps(pen: Pen, history: pd.DataFrame, left: int) -> Area:
+def _steps(pen: Pen, history: Rows, left: int) -> Area:
     """Write the course as steps: each value also at the generation before the next change."""
     shown = history
     if len(history) > MAX_STEPS:
-        logs = np.log(history["generation"].to_numpy())
+        logs = np.log(history["generation"])
         wanted = np.linspace(logs[0], logs[-1], MAX_STEPS)
-        shown = history.iloc[np.unique(np.searchsorted(logs, wanted))]
+        shown = history[np.unique(np.searchsorted(logs, wanted))]
     names = [name for name, _, _, _ in CRITERIA]
-    rows = shown[["generation", *names]].to_numpy()
+    rows = np.column_stack([shown[name] for name in ("generation", *names)])
     points = [rows[0]] if len(rows) else []
     for before, after in pairwise(rows):
         points += [np.array([after[0], *before[1:]]), after]

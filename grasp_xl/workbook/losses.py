@@ -19,9 +19,9 @@ from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank, normal, same_formula
 from grasp_xl.workbook.designs_sheet import PICK_NAME
 from grasp_xl.workbook.extras import AREA_NAMES, VALIDATIONS, Extra, not_among, read_extras
-from grasp_xl.workbook.layout import CALC, GRASP, OPTION_SPACE, RUN_LOG, Area
+from grasp_xl.workbook.layout import CALC, GA, GRASP, OPTION_SPACE, RUN_LOG, Area
 from grasp_xl.workbook.package import Package
-from grasp_xl.workbook.reading import find_sheet
+from grasp_xl.workbook.reading import corner_cells, find_sheet
 from grasp_xl.workbook.table import DASH, NO, YES
 from grasp_xl.workbook.writing import Filled
 
@@ -94,8 +94,17 @@ def refuse_losses(target: Path, source: Source, written: Written) -> None:
     Raises
     ------
     OutputError
-        Naming everything that would be lost.
+        Naming everything that would be lost, or the sheet without which that cannot be told.
     """
+    gone = [name for name in written.filled if name not in source.sheets]
+    if gone and GA in written.filled:  # an export's sheet may have any name
+        raise OutputError(
+            f"{target} has no sheet {gone[0]!r} any more, so it cannot be told what else in it is "
+            "not of the last run. Nothing was written.",
+            where=str(target),
+            hint=f"Give that sheet the name {gone[0]!r} again, write to another file with -o, "
+            "or add --force to lose what a run does not write",
+        )
     lost = losses(source, written)
     if lost:
         raise OutputError(
@@ -184,13 +193,11 @@ class Comparison:
         self._source = source
         self._copy = copy
         self._written = written
-        self._inputs = {
-            cell
-            for name in INPUT_NAMES
-            if name in source.names
-            for row in cells_of(source.names[name])
-            for cell in row
-        }
+        areas = [source.names[name] for name in INPUT_NAMES if name in source.names]
+        if layout.APPROXIMATION_POLYGON in source.names:
+            corners = corner_cells(source, source.names[layout.APPROXIMATION_POLYGON])
+            areas.append(replace(corners, column=corners.column - 1, columns=1 + corners.columns))
+        self._inputs = {cell for area in areas for row in cells_of(area) for cell in row}
 
     def changes(self, sheet: str, our_name: str) -> Iterator[tuple[str, str]]:
         """Yield what would be lost of a sheet, and the cell where it stands."""
@@ -199,7 +206,10 @@ class Comparison:
             if our_name == RUN_LOG and column < LOG_COLUMNS:
                 continue
             cell, copied = Area(sheet, row, column), Area(our_name, row, column)
-            what = self._change(cell, copied) if (row, column) in ours else CELLS
+            if (row, column) in ours:
+                what = self._change(cell, copied)
+            else:
+                what = "" if cell in self._inputs else CELLS
             if what:
                 yield what, cell.where
 

@@ -440,12 +440,12 @@ def _ideal_area(source: Source, sheet: str) -> Area | None:
     """Find the ideal polygon's x, y, z cells: by name, else below the header i, x, y, z."""
     named = source.names.get(layout.IDEAL_POLYGON)
     if named and named.columns == 3:
-        return _corners(source, named)
+        return corner_cells(source, named)
     grid = source.grid(sheet)
     for header in grid.places(layout.POLYGON_HEADER[0]):
         titles = [str(grid.at(header.row, header.column + n)) for n in range(4)]
         if tuple(map(normal, titles)) == layout.POLYGON_HEADER:
-            return _corners(source, Area(sheet, header.row + 1, header.column + 1, 0, 3))
+            return corner_cells(source, Area(sheet, header.row + 1, header.column + 1, 0, 3))
     return None
 
 
@@ -453,14 +453,14 @@ def _approximation_area(source: Source, sheet: str) -> Area | None:
     """Find the x, y, z cells of the polygon before scaling: by name, else below its label."""
     named = source.names.get(layout.APPROXIMATION_POLYGON)
     if named and named.columns == 3:
-        return _corners(source, named)
+        return corner_cells(source, named)
     label = source.grid(sheet).find(layout.APPROXIMATION_LABEL)
     if label is None:
         return None
-    return _corners(source, Area(sheet, label.row + 2, label.column + 1, 0, 3))
+    return corner_cells(source, Area(sheet, label.row + 2, label.column + 1, 0, 3))
 
 
-def _corners(source: Source, area: Area) -> Area:
+def corner_cells(source: Source, area: Area) -> Area:
     """Return the corners of a polygon, which may have grown or shrunk below its name's area."""
     if area.rows > MAX_VERTICES:  # a name of whole columns, say: refused as it is
         return area
