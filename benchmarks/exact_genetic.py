@@ -22,7 +22,7 @@ from benchmarks.samples import add_arguments, read
 from grasp_xl.search.exact import PROOF, ExactSettings, Proof, solve
 from grasp_xl.search.genetic import search, start
 from grasp_xl.search.result import load_stream
-from grasp_xl.search.stop import Target, TimeLimit
+from grasp_xl.search.stop import StopRule, Target, TimeLimit
 from grasp_xl.search.warm import load_exact_search
 from grasp_xl.space import IntArray
 from grasp_xl.task import Task
@@ -97,7 +97,7 @@ def exact(task: Task, limit: float) -> tuple[Proof, float]:
 def genetic(task: Task, seed: int, seconds: float, target: float) -> Run:
     """Run our genetic search."""
     settings = replace(task.settings, seed=seed)
-    stop = [Target(target), TimeLimit(seconds)]
+    stop: list[StopRule] = [Target(target), TimeLimit(seconds)]
     result = search(task.space, task.rules, settings, task.benchmark.chromosome, stop)
     value = result.best.value if result.best else math.inf
     return Run(value, result.seconds if value <= target else math.inf)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 
 import highspy
 import numpy as np
@@ -44,15 +45,17 @@ def minimise(statement: Statement, tangents: FloatArray, below: float, seconds: 
 
 
 def _model(statement: Statement, tangents: FloatArray, below: float) -> highspy.HighsLp:
-    places = np.arange(len(statement.pulls))
-    offset = statement.constant
-    prices = np.array(statement.prices)
-    rows = [(row.variables, row.coefficients, row.low, row.high) for row in statement.rows] + [
-        ([*places, statement.moment], [*-(statement.pulls @ u), 1.0], 0.0, None) for u in tangents
+    places = range(len(statement.pulls))
+    offset, prices = statement.constant, np.array(statement.prices)
+    rows: list[tuple[Sequence[int], Sequence[float], float | None, float | None]] = [
+        (row.variables, row.coefficients, row.low, row.high) for row in statement.rows
     ]
-    priced = np.flatnonzero(prices)
+    rows += [
+        ([statement.moment, *places], [1.0, *(-pull for pull in pulls)], 0.0, None)
+        for pulls in (tangents @ statement.pulls.T).tolist()
+    ]
     if below < math.inf:
-        rows.append((priced, prices[priced], None, below - offset))
+        rows.append((range(len(prices)), prices.tolist(), None, below - offset))
     upper = np.array(statement.upper, dtype=np.float64)
     upper[statement.moment] = math.inf
     model = highspy.HighsLp()

@@ -207,7 +207,8 @@ def _branches(plan: FloatArray, start: int, end: int) -> FloatArray:
     """Return the distance of each element to the line of a main truss, ``(n,)`` (mm)."""
     x, y = (plan[end] - plan[start]) / np.linalg.norm(plan[end] - plan[start])
     offset = plan - plan[start]
-    return np.abs(x * offset[:, 1] - y * offset[:, 0])
+    across: FloatArray = np.abs(x * offset[:, 1] - y * offset[:, 0])
+    return across
 
 
 def _ranks(distance: FloatArray) -> IntArray:
