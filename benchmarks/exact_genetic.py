@@ -145,7 +145,8 @@ def cell(runs: list[Run], optimum: float) -> str:
     hits = sum(run.reached < math.inf for run in runs)
     reached = float(np.median([run.reached for run in runs]))
     gap = float(np.median([run.value / optimum - 1 for run in runs]))
-    middle = f"{reached:.2f} s" if reached < math.inf else f"{gap:.1%}"
+    left = f"{gap:.1%}" if gap < own_ways.WORST / optimum - 1 else "no grasp"
+    middle = f"{reached:.2f} s" if reached < math.inf else left
     return f"{hits}/{len(runs)}, {middle}"
 
 
