@@ -31,7 +31,7 @@ SIZES = (6, 8, 12, 16, 24, 32, 48)
 """Footprints of each kind."""
 
 FAMILIES: dict[str, Callable[[int], OptionSpace]] = {
-    "Door frame, two to four elements": lambda size: door_frame(size, size),
+    "Door frame, three elements and more": lambda size: door_frame(size, size),
     "Panel, eight elements and more": lambda size: thinned(panel(40.0), size),
 }
 REPEATS = 5
