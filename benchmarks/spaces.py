@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -122,6 +123,21 @@ def panel_places(pitch_mm: float, margin_mm: float) -> FloatArray:
 def settled(space: OptionSpace) -> Task:
     """Return the space with every default filled in and the program's benchmark grasp."""
     return settle(space, Parameters(), None)
+
+
+def with_counts(space: OptionSpace, cups: int, magnets: int) -> Task:
+    """Return the space with just so many elements, and the FoS goal that they just meet."""
+    kinds = tuple(
+        replace(kind, count_min=count, count_max=count)
+        for kind, count in zip(space.kinds, (cups, magnets), strict=True)
+    )
+    return needing(replace(space, kinds=kinds), cups, magnets)
+
+
+def needing(space: OptionSpace, cups: int, magnets: int) -> Task:
+    """Return the space with the FoS goal that so many elements just meet."""
+    force = cups * space.kinds[0].force_n + magnets * space.kinds[1].force_n
+    return settle(space, Parameters(fos=force / space.part.weight_n), None)
 
 
 def main() -> None:
