@@ -21,7 +21,9 @@ import numpy as np
 from grasp_xl.chromosome import Chromosome, from_active
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import SLACK, Rules
-from grasp_xl.search.exact_bound import Room, make_room, node_bound
+from grasp_xl.search.exact_bound import (
+    node_bound,
+)
 from grasp_xl.search.exact_kernel import (
     Nodes,
     expand,
@@ -32,6 +34,10 @@ from grasp_xl.search.exact_kernel import (
 from grasp_xl.search.exact_leaf import ENTRIES
 from grasp_xl.search.exact_many import ManyRoom, make_many_room
 from grasp_xl.search.exact_model import locate, weigh, weigh_goals
+from grasp_xl.search.exact_prices import (
+    Room,
+    make_room,
+)
 from grasp_xl.search.feasibility import lifting_counts
 from grasp_xl.search.floors import floors
 from grasp_xl.search.symmetry import representative, symmetries

@@ -12,14 +12,10 @@ import numpy as np
 from grasp_xl.compiled import compiled, inner
 from grasp_xl.kernels import RecordArray
 from grasp_xl.search.exact_bound import (
-    MULTIPLIERS,
-    Room,
-    Truss,
-    Weights,
-    group_end,
-    is_barred,
     node_bound,
-    truss_of,
+)
+from grasp_xl.search.exact_cuts import (
+    MULTIPLIERS,
 )
 from grasp_xl.search.exact_leaf import BUDGET, ENTRIES, enumerate_node
 from grasp_xl.search.exact_many import (
@@ -29,12 +25,20 @@ from grasp_xl.search.exact_many import (
     enumerate_many,
 )
 from grasp_xl.search.exact_model import Locations
+from grasp_xl.search.exact_prices import (
+    Room,
+    Truss,
+    Weights,
+    group_end,
+    is_barred,
+    truss_of,
+)
 from grasp_xl.space import FloatArray, IntArray
 
-STEPS = 4
+STEPS = 6
 """Steps of the multipliers at a node; they go on from its parent's."""
 
-STEPS_OF_MANY = 12
+STEPS_OF_MANY = 16
 """Steps before the grasps on one main truss are enumerated."""
 
 DEFERRAL = 0.02

@@ -12,22 +12,24 @@ import numpy as np
 from grasp_xl.compiled import inner
 from grasp_xl.rules import SLACK
 from grasp_xl.search.exact_bound import (
+    gap,
+    shortest_truss,
+)
+from grasp_xl.search.exact_model import CUPS, MAGNETS, Locations
+from grasp_xl.search.exact_prices import (
     Room,
     Truss,
     Weights,
     branch,
     cheapest,
-    gap,
     group_end,
     is_barred,
     kind_price,
     no_truss,
     price,
-    shortest_truss,
     squared_distance,
     truss_of,
 )
-from grasp_xl.search.exact_model import CUPS, MAGNETS, Locations
 from grasp_xl.space import FloatArray, IntArray
 
 ENTRIES = 512

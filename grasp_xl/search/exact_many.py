@@ -14,17 +14,7 @@ import numpy as np
 
 from grasp_xl.compiled import inner
 from grasp_xl.search.exact_bound import (
-    Room,
-    Truss,
-    Weights,
-    branch,
-    cheapest,
-    is_barred,
-    joins_clique,
-    no_truss,
-    price,
     shortest_truss,
-    truss_of,
 )
 from grasp_xl.search.exact_leaf import keep
 from grasp_xl.search.exact_model import Locations
@@ -37,6 +27,18 @@ from grasp_xl.search.exact_pairs import (
     make_pairs,
     pull_of,
     tabulate_pairs,
+)
+from grasp_xl.search.exact_prices import (
+    Room,
+    Truss,
+    Weights,
+    branch,
+    cheapest,
+    is_barred,
+    joins_clique,
+    no_truss,
+    price,
+    truss_of,
 )
 from grasp_xl.space import FloatArray, IntArray
 

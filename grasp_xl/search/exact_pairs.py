@@ -12,8 +12,12 @@ from typing import NamedTuple
 import numpy as np
 
 from grasp_xl.compiled import inner
-from grasp_xl.search.exact_bound import Truss, Weights, squared_distance
 from grasp_xl.search.exact_model import MAGNETS, Locations
+from grasp_xl.search.exact_prices import (
+    Truss,
+    Weights,
+    squared_distance,
+)
 from grasp_xl.space import FloatArray, IntArray
 
 GRID = 128
