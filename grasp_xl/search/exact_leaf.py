@@ -22,6 +22,7 @@ from grasp_xl.search.exact_prices import (
     Weights,
     branch,
     cheapest,
+    fit_together,
     group_end,
     is_barred,
     kind_price,
@@ -236,9 +237,8 @@ def try_last(
 @inner
 def stands_apart(loc: Locations, w: Weights, t: Truss, place: int, chosen: int, room: Room) -> bool:
     """Tell whether a location is far enough from the chosen ones, and within the truss's reach."""
-    for i in range(chosen):
-        squared = squared_distance(loc, place, room.chosen[i])
-        if squared < w.clearance * w.clearance or squared > t.reach:
+    for i in range(chosen):  # noqa: SIM110 (numba compiles no generator without references)
+        if not fit_together(loc, w, t, place, room.chosen[i]):
             return False
     return True
 

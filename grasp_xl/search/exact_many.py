@@ -16,14 +16,13 @@ from grasp_xl.compiled import inner
 from grasp_xl.search.exact_bound import (
     shortest_truss,
 )
-from grasp_xl.search.exact_leaf import keep
+from grasp_xl.search.exact_leaf import keep, stands_apart
 from grasp_xl.search.exact_model import Locations
 from grasp_xl.search.exact_pairs import (
     GRID,
     PAIRS,
     Listed,
     Pairs,
-    fit_together,
     make_pairs,
     pull_of,
     tabulate_pairs,
@@ -34,6 +33,7 @@ from grasp_xl.search.exact_prices import (
     Weights,
     branch,
     cheapest,
+    fit_together,
     is_barred,
     joins_clique,
     no_truss,
@@ -299,11 +299,9 @@ def try_pair(
     """Keep the chosen elements with a pair, if all stand apart and it is among the best."""
     n = w.cups + w.magnets
     p, q = many.listed.place[member[0]], many.listed.place[member[1]]
+    if not stands_apart(loc, w, t, p, n - 2, room) or not stands_apart(loc, w, t, q, n - 2, room):
+        return
     for i in range(n - 2):
-        if not fit_together(loc, w, t, p, room.chosen[i]):
-            return
-        if not fit_together(loc, w, t, q, room.chosen[i]):
-            return
         room.chosen_kind[i] = many.chosen.kinds[n - 2, share] >> i & 1
     room.chosen[n - 2], room.chosen[n - 1] = p, q
     room.chosen_kind[n - 2], room.chosen_kind[n - 1] = member[2] >> 1, member[2] & 1

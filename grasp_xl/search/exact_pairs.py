@@ -13,11 +13,7 @@ import numpy as np
 
 from grasp_xl.compiled import inner
 from grasp_xl.search.exact_model import MAGNETS, Locations
-from grasp_xl.search.exact_prices import (
-    Truss,
-    Weights,
-    squared_distance,
-)
+from grasp_xl.search.exact_prices import Truss, Weights, fit_together
 from grasp_xl.space import FloatArray, IntArray
 
 GRID = 128
@@ -65,13 +61,6 @@ def make_pairs(most: int) -> Pairs:
         np.empty(most),
         np.empty((most, 3), dtype=np.int64),
     )
-
-
-@inner
-def fit_together(loc: Locations, w: Weights, t: Truss, p: int, q: int) -> bool:
-    """Tell whether two locations keep the clearance, and are no farther apart than the truss."""
-    squared = squared_distance(loc, p, q)
-    return w.clearance * w.clearance <= squared <= t.reach
 
 
 @inner

@@ -193,6 +193,14 @@ def is_barred(loc: Locations, t: Truss, box: int) -> bool:
 
 
 @inner
+def fit_together(loc: Locations, w: Weights, t: Truss, p: int, q: int) -> bool:
+    """Tell whether two locations keep the clearance, and are no farther apart than the truss."""
+    squared = squared_distance(loc, p, q)
+    fits: bool = w.clearance * w.clearance <= squared <= t.reach
+    return fits
+
+
+@inner
 def branch(loc: Locations, t: Truss, box: int) -> float:
     """Return the least length of a branch from a box to the main truss (mm) [3]."""
     if t.a < 0:
