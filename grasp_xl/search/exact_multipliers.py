@@ -19,6 +19,9 @@ LARGER, SMALLER = 3.0, 0.25
 """A step that gains this share of what it aimed at makes the next aim so much larger, else so much
 smaller."""
 
+MOST = 1e4
+"""Largest multiplier that is tried."""
+
 TRIES = 8
 """How often a level is halved that no step can reach."""
 
@@ -69,6 +72,9 @@ def go(best: float, limit: float, share: float, u: FloatArray, cuts: Cuts) -> fl
     norm = np.sqrt(trial[0] * trial[0] + trial[1] * trial[1] + trial[2] * trial[2])
     for axis in range(3 if norm > 1.0 else 0):
         trial[axis] /= norm
+    for axis in range(MULTIPLIERS):
+        if not abs(trial[axis]) < MOST:  # not a number, or rounding would spoil the bound
+            trial[axis] = u[axis]
     return share
 
 
