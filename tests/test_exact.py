@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import partial
 from itertools import combinations, product
 
 import pytest
@@ -15,8 +14,6 @@ from grasp_xl.chromosome import from_active
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Rules
 from grasp_xl.search.exact import ExactSettings, solve
-from grasp_xl.search.exact_many import make_many_room
-from grasp_xl.search.exact_pairs import PAIRS
 from grasp_xl.search.genetic import search
 from grasp_xl.search.result import GeneticSettings
 from grasp_xl.search.stop import Generations
@@ -97,22 +94,15 @@ def crowded_spaces(draw: st.DrawFn) -> OptionSpace:
     return OptionSpace(part, tuple(kinds), frozen(corners), 0.6)
 
 
-@pytest.mark.parametrize("pairs", [PAIRS, 1], ids=["grids", "no room in the grids"])
-def test_grasps_of_many_elements_equal_brute_force(pairs, monkeypatch):
+@settings(max_examples=120, deadline=None)
+@given(space=crowded_spaces(), rules=any_rules())
+def test_grasps_of_many_elements_equal_brute_force(space: OptionSpace, rules: Rules) -> None:
     """From four elements on, too, the best three are those of all grasps, one by one."""
-    room = partial(make_many_room, pairs=pairs)
-    monkeypatch.setattr("grasp_xl.search.exact.make_many_room", room)
-
-    @settings(max_examples=60, deadline=None)
-    @given(space=crowded_spaces(), rules=any_rules())
-    def compare(space: OptionSpace, rules: Rules) -> None:
-        grasps = distinct(space, all_grasps(space, rules))
-        proof = solve(space, rules, ExactSettings(top=3))
-        assert proof.status == ("optimal" if grasps else "infeasible")
-        values = [grasp.value for grasp in grasps[:3]]
-        assert [grasp.value for grasp in proof.designs] == pytest.approx(values, rel=1e-8, abs=1e-9)
-
-    compare()
+    grasps = distinct(space, all_grasps(space, rules))
+    proof = solve(space, rules, ExactSettings(top=3))
+    assert proof.status == ("optimal" if grasps else "infeasible")
+    values = [grasp.value for grasp in grasps[:3]]
+    assert [grasp.value for grasp in proof.designs] == pytest.approx(values, rel=1e-8, abs=1e-9)
 
 
 @pytest.mark.parametrize("cores", [1, 3])

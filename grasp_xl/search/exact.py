@@ -32,7 +32,6 @@ from grasp_xl.search.exact_kernel import (
     take_batch,
 )
 from grasp_xl.search.exact_leaf import ENTRIES
-from grasp_xl.search.exact_many import ManyRoom, make_many_room
 from grasp_xl.search.exact_model import locate, weigh, weigh_goals
 from grasp_xl.search.exact_prices import (
     Room,
@@ -386,10 +385,7 @@ class _Workers:
         top = search.settings.top * (1 + len(search.symmetries))
         cores = os.cpu_count() or 1
         self.halt = np.zeros(1, dtype=np.int64)
-        self.rooms = [
-            (make_room(places, elements, ENTRIES), make_many_room(places, elements, self.halt))
-            for _ in range(cores)
-        ]
+        self.rooms = [make_room(places, elements, ENTRIES) for _ in range(cores)]
         self.batch = make_nodes(BATCH, elements)
         self.children = make_nodes((BATCH, elements + 1), elements)
         self.born = np.zeros(BATCH, dtype=np.int64)
@@ -412,7 +408,7 @@ class _Workers:
         """
         parts = _Shared(range(0, taken, PART))
 
-        def work(room: Room, many: ManyRoom) -> None:
+        def work(room: Room) -> None:
             for first in parts:
                 expand(
                     self._search.locations,
@@ -428,10 +424,10 @@ class _Workers:
                     self.found,
                     self.genes,
                     room,
-                    many,
+                    self.halt,
                 )
 
-        running = [self._threads.submit(work, *rooms) for rooms in self.rooms]
+        running = [self._threads.submit(work, room) for room in self.rooms]
         while wait(running, POLL_SECONDS).not_done:
             self.halt[0] = self.halt[0] or asked_to_stop()
         for thread in running:

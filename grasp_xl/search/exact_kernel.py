@@ -18,12 +18,6 @@ from grasp_xl.search.exact_cuts import (
     MULTIPLIERS,
 )
 from grasp_xl.search.exact_leaf import BUDGET, ENTRIES, enumerate_node
-from grasp_xl.search.exact_many import (
-    MANY_MAX,
-    MANY_MIN,
-    ManyRoom,
-    enumerate_many,
-)
 from grasp_xl.search.exact_model import Locations
 from grasp_xl.search.exact_prices import (
     Room,
@@ -38,11 +32,11 @@ from grasp_xl.space import FloatArray, IntArray
 STEPS = 6
 """Steps of the multipliers at a node; they go on from its parent's."""
 
-STEPS_OF_MANY = 16
+STEPS_OF_TRUSS = 16
 """Steps before the grasps on one main truss are enumerated."""
 
-DEFERRAL = 0.02
-"""A node that was tried in vain waits for others, as if its bound were higher by so much a try."""
+MANY = 4
+"""Elements from which on multipliers give the better bound."""
 
 SIDES = 2
 """Sets of multipliers of a node: one for the value, one for the sum of the goals."""
@@ -52,15 +46,13 @@ class Nodes(NamedTuple):
     """Nodes of the search.
 
     bound ``(n,)``; u ``(n, SIDES, MULTIPLIERS)``; choice ``(n,)`` row of the weights; boxes
-    ``(n, elements)``, behind a node's own elements 0; tries ``(n,)`` how often its grasps were
-    enumerated in part.
+    ``(n, elements)``, behind a node's own elements 0.
     """
 
     bound: FloatArray
     u: FloatArray
     choice: IntArray
     boxes: IntArray
-    tries: IntArray
 
 
 def make_nodes(shape: int | tuple[int, ...], elements: int) -> Nodes:
@@ -71,7 +63,6 @@ def make_nodes(shape: int | tuple[int, ...], elements: int) -> Nodes:
         np.zeros((*shape, SIDES, MULTIPLIERS)),
         np.zeros(shape, dtype=np.int64),
         np.zeros((*shape, elements), dtype=np.int64),
-        np.zeros(shape, dtype=np.int64),
     )
 
 
@@ -137,7 +128,6 @@ def take_batch(
             continue
         batch.bound[taken], batch.choice[taken] = nodes.bound[row], nodes.choice[row]
         batch.u[taken], batch.boxes[taken] = nodes.u[row], nodes.boxes[row]
-        batch.tries[taken] = nodes.tries[row]
         taken += 1
     return taken, size
 
@@ -160,14 +150,13 @@ def put_children(
     """
     for i in range(len(born)):
         for c in range(born[i]):
-            bound, tries = children.bound[i, c], children.tries[i, c]
+            bound = children.bound[i, c]
             if bound >= below:
                 continue
             row = order[size]
             nodes.bound[row], nodes.choice[row] = bound, children.choice[i, c]
             nodes.u[row], nodes.boxes[row] = children.u[i, c], children.boxes[i, c]
-            nodes.tries[row] = tries
-            key[row], age[row] = bound + DEFERRAL * tries * abs(bound), oldest
+            key[row], age[row] = bound, oldest
             oldest += 1
             size += 1
             sift_up(order, size, key, age)
@@ -249,7 +238,7 @@ def expand(
     found: FloatArray,
     genes: IntArray,
     room: Room,
-    many: ManyRoom,
+    halt: IntArray,
 ) -> None:
     """Enumerate nodes, or split them and bound their children.
 
@@ -263,12 +252,15 @@ def expand(
     upper, slack : float
         Grasps at ``upper`` or above are of no use; nodes within ``slack`` of it are pruned.
     children, born : Nodes, IntArray
-        ``(m, k)`` children of each node, and how many there are; a node that could not be dealt
-        with is its own child.
+        ``(m, k)`` children of each node, and how many there are; none where
+        all its grasps were looked at.
     found, genes : FloatArray, IntArray
         ``(m, k)`` values of grasps found, rising, ``upper`` where there is none; ``(m, k, n, 2)``
         their locations and kinds.
-    room, many : Room, ManyRoom
+    room : Room
+    halt : IntArray
+        ``(1,)``; set from outside where the worker shall stop: a node that was not looked at is its
+        own only child.
     """
     for i in range(first, behind):
         w = weights[batch.choice[i]]
@@ -277,17 +269,17 @@ def expand(
         found[i] = upper
         born[i] = 0
         at = to_split(loc, w, boxes, n)
-        if many.halt[0]:
-            keep_node(batch, i, batch.bound[i], batch.tries[i], children, born)
+        if halt[0]:
+            born[i] = 1
+            children.bound[i, 0], children.choice[i, 0] = batch.bound[i], batch.choice[i]
+            children.u[i, 0], children.boxes[i, 0] = batch.u[i], batch.boxes[i]
             continue
-        if w.trussed and MANY_MIN <= n <= MANY_MAX and (at < 0 or at > 1):
+        if w.trussed and n >= MANY and boxes[2] == boxes[n - 1] and (at < 0 or at > 1):
             u = batch.u[i, 0]
-            bound = node_bound(loc, w, boxes, upper - slack, u, STEPS_OF_MANY, room)
-            if bound < upper - slack:
-                tries = batch.tries[i]
-                if not enumerate_many(loc, w, boxes, u, tries, found[i], genes[i], room, many):
-                    keep_node(batch, i, max(bound, batch.bound[i]), tries + 1, children, born)
-            continue
+            bound = node_bound(loc, w, boxes, upper - slack, u, STEPS_OF_TRUSS, room)
+            if bound >= upper - slack:
+                continue
+            batch.bound[i] = max(batch.bound[i], bound)
         if is_small(loc, w, boxes, n, at):
             budget = BUDGET if at >= 0 else np.iinfo(np.int64).max
             if enumerate_node(loc, w, boxes, batch.u[i, 0], budget, found[i], genes[i], room):
@@ -295,7 +287,6 @@ def expand(
         born[i] = split(loc, w, boxes, at, children.boxes[i])
         for c in range(born[i]):
             children.choice[i, c] = batch.choice[i]
-            children.tries[i, c] = 0
             children.u[i, c] = batch.u[i]
             child, u = children.boxes[i, c], children.u[i, c]
             bound = node_bound(loc, w, child, upper - slack, u[0], STEPS, room)
@@ -304,17 +295,6 @@ def expand(
                 goals = goal_weights[batch.choice[i]]
                 if node_bound(loc, goals, child, goals.limit, u[1], STEPS, room) > goals.limit:
                     children.bound[i, c] = np.inf
-
-
-@compiled
-def keep_node(
-    batch: Nodes, i: int, bound: float, tries: int, children: Nodes, born: IntArray
-) -> None:
-    """Make a node its own only child, to be looked at again."""
-    born[i] = 1
-    children.bound[i, 0], children.choice[i, 0] = bound, batch.choice[i]
-    children.u[i, 0], children.boxes[i, 0] = batch.u[i], batch.boxes[i]
-    children.tries[i, 0] = tries
 
 
 @inner

@@ -20,7 +20,7 @@ LARGER, SMALLER = 3.0, 0.25
 smaller."""
 
 MOST = 1e4
-"""Largest multiplier that is tried."""
+"""Largest multiplier that is tried, over the value."""
 
 TRIES = 8
 """How often a level is halved that no step can reach."""
@@ -73,7 +73,9 @@ def go(best: float, limit: float, share: float, u: FloatArray, cuts: Cuts) -> fl
     for axis in range(3 if norm > 1.0 else 0):
         trial[axis] /= norm
     for axis in range(MULTIPLIERS):
-        if not abs(trial[axis]) < MOST:  # not a number, or rounding would spoil the bound
+        if not abs(trial[axis]) < MOST * (
+            1.0 + abs(limit)
+        ):  # not a number, or rounding would spoil the bound
             trial[axis] = u[axis]
     return share
 
