@@ -112,14 +112,25 @@ def first_to_stop(rules: Sequence[StopRule], progress: Progress) -> tuple[int, S
     return left, None
 
 
+SAME_PRESS_S = 2.0
+"""A Ctrl-C so soon after the first is the same wish."""
+
+
 @contextmanager
 def stop_on_ctrl_c() -> Iterator[Interrupt]:
-    """Give a rule that Ctrl-C trips, once; a second Ctrl-C acts as usual."""
-    rule = Interrupt()
+    """Give a rule that Ctrl-C trips; another one acts as usual, but not at once.
 
-    def ask(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 (signature of signal)
-        rule.asked = True
-        signal.signal(signal.SIGINT, usual)
+    An impatient person presses twice, and some programs pass a signal on twice.
+    """
+    rule = Interrupt()
+    usual_from = 0.0
+
+    def ask(number: int, frame: FrameType | None) -> None:
+        nonlocal usual_from
+        if not rule.asked:
+            rule.asked, usual_from = True, time.monotonic() + SAME_PRESS_S
+        elif time.monotonic() >= usual_from and callable(usual):
+            usual(number, frame)
 
     usual = signal.signal(signal.SIGINT, ask)
     try:
