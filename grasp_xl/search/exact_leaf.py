@@ -36,7 +36,7 @@ from grasp_xl.space import FloatArray, IntArray
 ENTRIES = 512
 """Locations and kinds that are listed for one node; a node with more is split."""
 
-BUDGET = 30000
+BUDGET = 10000
 """Steps spent on one node before it is split."""
 
 BOX, COUNT, FIRST, SIZE = 0, 1, 2, 3
