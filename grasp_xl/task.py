@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
-from grasp_xl.chromosome import Chromosome
+from grasp_xl.chromosome import Chromosome, is_usable
 from grasp_xl.errors import Problem
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import (
@@ -109,8 +109,21 @@ class Task:
     warnings: tuple[Problem, ...]
 
 
-def settle(space: OptionSpace, said: Parameters, user_chromosome: Chromosome | None) -> Task:
+def settle(
+    space: OptionSpace,
+    said: Parameters,
+    user_chromosome: Chromosome | None,
+    assigned: Chromosome | None = None,
+) -> Task:
     """Fill every gap: defaults, the clearance, the benchmark grasp, the goals.
+
+    Parameters
+    ----------
+    space, said
+    user_chromosome : Chromosome or None
+    assigned : Chromosome, optional
+        What the program assigned before in its place: it stays as long as it is feasible, so that
+        goals taken from it stay what the designer sees.
 
     Raises
     ------
@@ -119,11 +132,23 @@ def settle(space: OptionSpace, said: Parameters, user_chromosome: Chromosome | N
     """
     known = said.over(DEFAULTS)
     requirements = settle_requirements(space, known)
-    chromosome = user_chromosome or assigned_benchmark(space, requirements)
     unscaled = Rules(Goals(Terms(1.0, 1.0, 1.0, 1.0)), requirements)
+    chromosome = user_chromosome
+    if not chromosome and assigned and _is_feasible(space, unscaled, assigned):
+        chromosome = assigned
+    chromosome = chromosome or assigned_benchmark(space, requirements)
     benchmark = evaluate(space, unscaled, chromosome)
     goals, warnings = settle_goals(benchmark.terms, known.goals)
     rules = Rules(goals, requirements, _known(known.criterion))
+    if assigned and chromosome not in (user_chromosome, assigned):
+        warnings.append(
+            Problem(
+                "User-Defined Chromosome",
+                "a grasp that the program assigned, and that is no longer feasible",
+                "one that meets counts, FoS and clearance",
+                "another is assigned now, and goals that nobody typed follow it",
+            )
+        )
     if not benchmark.feasible:
         warnings.append(
             Problem(
@@ -150,6 +175,10 @@ def settle(space: OptionSpace, said: Parameters, user_chromosome: Chromosome | N
         assigned=user_chromosome is None,
         warnings=tuple(warnings),
     )
+
+
+def _is_feasible(space: OptionSpace, rules: Rules, chromosome: Chromosome) -> bool:
+    return is_usable(chromosome, space) and evaluate(space, rules, chromosome).feasible
 
 
 def settle_requirements(space: OptionSpace, said: Parameters) -> Requirements:

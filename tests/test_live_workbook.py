@@ -37,9 +37,11 @@ from grasp_xl.workbook.grasp_sheet import Picture
 from grasp_xl.workbook.layout import (
     APPROXIMATION_COLUMN,
     FIRST_LOCATION_ROW,
+    FITNESS_TABLE,
     GA,
     GOAL_NAMES,
     GRASP,
+    HISTORY,
     KINDS,
     OPTION_SPACE,
     POLYGON_HEADER_ROW,
@@ -402,6 +404,19 @@ def test_no_card_calls_proved_what_was_edited_since(place, opened):
     assert opened.value(title) == "Edited since the search for the optimum"
     opened.enter({place: before})
     assert opened.value(title) == "Proved optimum"
+
+
+@pytest.mark.parametrize("sheet", [VALID_DESIGNS, FITNESS_TABLE, HISTORY])
+@pytest.mark.parametrize("place", ["PartMass", "MomentGoal"])
+def test_results_say_that_inputs_were_edited_since(place, sheet, opened):
+    """A typed input or goal puts a warning into the title of the numbers that no formula gives."""
+    title, before = Area(sheet, 0, 0), opened.value(place)
+    called = opened.value(title)
+    assert "edited" not in called
+    opened.enter({place: 17.0})
+    assert opened.value(title) == f"{called} (of the inputs before they were edited; run again)"
+    opened.enter({place: before})
+    assert opened.value(title) == called
 
 
 def test_command_line_says_what_the_card_shows(opened, tmp_path):

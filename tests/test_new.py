@@ -12,12 +12,12 @@ import openpyxl
 import pytest
 from bad_workbooks import Value, tiny_export
 
-from grasp_xl.chromosome import Chromosome
+from grasp_xl.chromosome import Chromosome, is_usable
 from grasp_xl.cli.program import main
 from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book
-from grasp_xl.workbook.carrying import carried, is_usable
+from grasp_xl.workbook.carrying import carried
 from grasp_xl.workbook.writing import export_workbook
 
 GENES = ((2, 3, 6, 1, 1, 1), (2, 1, 5, 1, 1, 1))
@@ -143,23 +143,39 @@ def test_a_program_assigned_grasp_is_nobodys(tmp_path: Path) -> None:
     assert genes(read_book(path).user_chromosome) == GENES
 
 
-@pytest.mark.parametrize(
-    "edit",
-    [{"SuctionMin": 2}, {"SuctionPrice": 450}, {"MagnetMax": 1}],
-)
-def test_a_program_assigned_grasp_is_assigned_anew_for_an_edited_option_space(
+@pytest.mark.parametrize("edit", [{"SuctionPrice": 450}, {"MomentArm": "plan"}, {"FoSGoal": 2}])
+def test_a_program_assigned_grasp_stays_while_it_is_feasible(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], edit: dict[str, object]
 ) -> None:
-    """The benchmark is the one that an export of the same option space gets, and still nobody's."""
+    """So that goals which nobody typed are those that the workbook shows after the edit."""
+    path = tmp_path / "book.xlsx"
+    assert new(export(tmp_path / "tiny.xlsx"), path, "--quiet") == 0
+    before = read_book(path).assigned
+    type_into(path, edit)
+    assert main(["evaluate", str(path), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert Chromosome([[gene or 0 for gene in row] for row in told["genes"]]) == before
+    assert main(["run", str(path), "--in-place", "--generations", "3", "--quiet"]) == 0
+    assert read_book(path).assigned == before
+
+
+@pytest.mark.parametrize("edit", [{"SuctionMin": 1, "SuctionMax": 1}, {"MinClearance": 130}])
+def test_a_program_assigned_grasp_that_is_infeasible_now_is_assigned_anew(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], edit: dict[str, object]
+) -> None:
+    """A warning says so, and the benchmark is what an export of the same inputs gets."""
     path, fresh = tmp_path / "book.xlsx", tmp_path / "fresh.xlsx"
     assert new(export(tmp_path / "tiny.xlsx"), path, "--quiet") == 0
     type_into(path, edit)
-    space = read_book(path).space
-    fresh.write_bytes(export_workbook(space))
+    book = read_book(path)
+    fresh.write_bytes(export_workbook(book.space))
     benchmarks = []
     for file in (path, fresh):
-        assert main(["evaluate", str(file), "--json"]) == 0
-        benchmarks.append(json.loads(capsys.readouterr().out)["genes"])
+        clearance = str(book.parameters.clearance_mm)
+        assert main(["evaluate", str(file), "--json", "--clearance", clearance]) == 0
+        told = capsys.readouterr()
+        benchmarks.append(json.loads(told.out)["genes"])
+        assert ("no longer feasible" in told.err) == (file == path)
     assert benchmarks[0] == benchmarks[1]
     assert main(["run", str(path), "--in-place", "--generations", "3", "--quiet"]) == 0
     assert shown(path, "UserChromosome", -2, -1).endswith("(program-assigned)")
@@ -219,13 +235,38 @@ def test_every_stale_index_is_named(
     warnings = json.loads(told.out)["warnings"]
     named = {warning["where"]: warning["found"] for warning in warnings}
     for block in ("User-Defined Chromosome", "What-if"):
-        assert "was at (0, 60, 10) and is at (1, 60, 10) now" in named[f"{block}, suction Index 1"]
+        assert named[f"{block}, suction Index 1"] == "index 3, which is at (1, 60, 10) now"
         assert named[f"{block}, suction Index 2"] == "index 6, which is gone"
         assert "is at (-99, 60, 10)" in named[f"{block}, magnets Index 2"]
         assert f"{block}, magnets Index 1" not in named
     assert "index 6, which is gone" in told.err
-    assert shown(book, "UserChromosome", 0, 2) == 6
-    assert "stale" in shown(book, "UserChromosome", -2, -1)
+
+
+def test_genes_that_an_export_does_not_have_are_set_aside(tmp_path: Path, book: Path) -> None:
+    """The workbook shows a grasp that it has, says where the designer's genes are, and keeps them."""
+    assert new(export(tmp_path / "second.xlsx", FOUR_CUPS), book, "--quiet") == 0
+    for block in ("UserChromosome", "WhatIf"):
+        assert "see Run Log" in shown(book, block, -2, -1)
+    assert main(["run", str(book), "--in-place", "--generations", "3", "--quiet"]) == 0
+    again = read_book(book)
+    assert again.user_chromosome is None
+    assert again.what_if is None
+    for kept in (again.set_aside.user, again.set_aside.what_if):
+        assert genes(kept) == GENES
+    assert [str(warning) for warning in again.warnings if "did not have" in str(warning)]
+
+
+@pytest.mark.parametrize("block", ["UserChromosome", "WhatIf"])
+def test_typed_genes_take_the_place_of_those_set_aside(
+    tmp_path: Path, book: Path, block: str
+) -> None:
+    assert new(export(tmp_path / "second.xlsx", FOUR_CUPS), book, "--quiet") == 0
+    type_into(book, {block: ((1, 1, 1, 1, 1, 1), (2, 1, 2, 1, 1, 1))})
+    aside = read_book(book).set_aside
+    assert (aside.user is None, aside.what_if is None) == (
+        block == "UserChromosome",
+        block == "WhatIf",
+    )
 
 
 def test_a_stale_workbook_takes_the_next_export(
@@ -233,11 +274,10 @@ def test_a_stale_workbook_takes_the_next_export(
 ) -> None:
     """No parameter is lost on the way, and genes that fit again are the designer's again."""
     assert new(export(tmp_path / "second.xlsx", FOUR_CUPS), book, "--quiet") == 0
-    assert main(["run", str(book), "--quiet"]) == 3  # an index that is no more
     assert new(export(tmp_path / "third.xlsx", FOUR_CUPS | {"B5": 9001}), book) == 0
     assert "index 6, which is gone" in capsys.readouterr().err
     assert new(export(tmp_path / "fourth.xlsx"), book) == 0
-    assert "index 6, which was stale already" in capsys.readouterr().err
+    assert "index 6, which the option space before this one" in capsys.readouterr().err
     again = read_book(book)
     assert said(again).goals == (90, None, None, 444)
     assert genes(again.user_chromosome) == GENES

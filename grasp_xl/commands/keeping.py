@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from grasp_xl.chromosome import is_usable
 from grasp_xl.commands.output import Output, not_begun, now, written_book
 from grasp_xl.errors import InfeasibleError, InputError, Problem
 from grasp_xl.search.mutation import random_chromosome
@@ -14,7 +15,6 @@ from grasp_xl.space import ElementKind, FloatArray
 from grasp_xl.task import Task, settle
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book
-from grasp_xl.workbook.carrying import is_usable
 from grasp_xl.workbook.cells import Source
 from grasp_xl.workbook.inputs import changed_inputs, trade_off_rows
 from grasp_xl.workbook.losses import Written, filled_cells, refuse_losses
@@ -66,7 +66,7 @@ def _task_of_its_run(book: Book) -> Task | None:
     user = book.user_chromosome
     if user is None or is_usable(user, book.space):
         with suppress(InfeasibleError, InputError):
-            task = settle(book.space, book.parameters, user)
+            task = settle(book.space, book.parameters, user, book.assigned)
             saved_run_of(book, task)
             return task
     return None
@@ -94,6 +94,7 @@ def _of_its_sizes(book: Book) -> Book:
         ),
         parameters=replace(book.parameters, children=max(2, children)),
         user_chromosome=None,
+        assigned=None,
         what_if=None,
         picks=NO_PICKS,
     )

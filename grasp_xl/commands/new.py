@@ -3,7 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
-from grasp_xl.chromosome import Chromosome
+from grasp_xl.chromosome import Chromosome, is_usable
 from grasp_xl.commands.keeping import kept_trade_offs, refuse_to_lose
 from grasp_xl.commands.output import Output, not_begun, now, written_book
 from grasp_xl.commands.preparing import Active, prepare
@@ -11,7 +11,7 @@ from grasp_xl.errors import InputError, Problem
 from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book, read_previous
-from grasp_xl.workbook.carrying import carried, is_usable
+from grasp_xl.workbook.carrying import SetAside, carried
 from grasp_xl.workbook.saving import (
     check_target,
     refuse_edited,
@@ -36,8 +36,7 @@ def make_workbook(
         book, stale = _taken_over(book, previous)
     else:
         refuse_edited(output.path, force=output.force)
-    usable = book.user_chromosome and is_usable(book.user_chromosome, book.space)
-    task = prepare(book if usable else replace(book, user_chromosome=None), options, grasp)
+    task = prepare(book, options, grasp)
     trade_offs, left_out = kept_trade_offs(previous or book, task)
     task = replace(task, warnings=(*task.warnings, *stale, *left_out))
     if previous:
@@ -63,18 +62,28 @@ def _previous(output: Output) -> Book | None:
 def _taken_over(book: Book, previous: Book) -> tuple[Book, list[Problem]]:
     """Return a new export's book with what the designer typed into the previous workbook."""
     stale: list[Problem] = []
-    typed: list[Chromosome | None] = []
+    fitting: list[Chromosome | None] = []
+    aside: list[Chromosome | None] = []
+    before = previous.set_aside
+    picked = previous.picks.trade_off or previous.picks.design
     for chromosome, block in (
-        (previous.user_chromosome, layout.USER_BLOCK),
-        (previous.what_if or previous.picks.trade_off or previous.picks.design, layout.WHAT_IF),
+        (previous.user_chromosome or before.user, layout.USER_BLOCK),
+        (previous.what_if or picked or before.what_if, layout.WHAT_IF),
     ):
-        genes = None
+        genes, unfit = None, None
         if chromosome:
             genes, faults = carried(chromosome, previous.space, book.space, block.label)
             stale += faults
-        typed.append(genes)
-    user, what_if = typed
-    if what_if and not is_usable(what_if, book.space):
-        what_if = None
-    taken = replace(book, parameters=previous.parameters, user_chromosome=user, what_if=what_if)
+            if not is_usable(genes, book.space):
+                genes, unfit = None, chromosome
+        fitting.append(genes)
+        aside.append(unfit)
+    user, what_if = fitting
+    taken = replace(
+        book,
+        parameters=previous.parameters,
+        user_chromosome=user,
+        what_if=what_if,
+        set_aside=SetAside(*aside),
+    )
     return taken, stale

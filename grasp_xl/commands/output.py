@@ -9,7 +9,6 @@ from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import Generations
 from grasp_xl.task import Task
 from grasp_xl.workbook.book import Book
-from grasp_xl.workbook.carrying import is_usable
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.run_log import Origin
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs
@@ -57,14 +56,13 @@ def written_book(
     """Return the full workbook of a task and its result, and which of its cells are filled."""
     source = book.source.package
     name = Path(source.name).name.encode(errors="backslashreplace").decode()
-    user = book.user_chromosome
     return full_workbook(
         task,
         result,
         Origin(name, source.sha256, began, now()),
         what_if=book.what_if,
         picks=book.picks,
-        stale_user=user if user and not is_usable(user, task.space) else None,
+        set_aside=book.set_aside,
         proved=proved,
         trade_offs=trade_offs,
     )

@@ -27,7 +27,8 @@ def prepare(book: Book, options: Parameters, grasp: Active = (None, None)) -> Ta
         If no grasp can serve as the benchmark.
     """
     given = given_grasp(book.space, grasp)
-    task = settle(book.space, options.over(book.parameters), given or book.user_chromosome)
+    user = given or book.user_chromosome
+    task = settle(book.space, options.over(book.parameters), user, book.assigned)
     return replace(task, warnings=(*book.warnings, *task.warnings))
 
 

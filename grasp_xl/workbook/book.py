@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import io
+import json
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from grasp_xl.chromosome import Chromosome
+import numpy as np
+
+from grasp_xl.chromosome import Chromosome, is_usable
 from grasp_xl.errors import InputError, Problem
 from grasp_xl.space import OptionSpace
 from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout, run_log
-from grasp_xl.workbook.carrying import carried, is_usable
+from grasp_xl.workbook.carrying import SetAside, carried
 from grasp_xl.workbook.cells import Source, cells_of
 from grasp_xl.workbook.inputs import genes_text
 from grasp_xl.workbook.layout import Field
@@ -26,6 +29,7 @@ from grasp_xl.workbook.reading_ga import (
 )
 from grasp_xl.workbook.reading_pick import read_picks
 from grasp_xl.workbook.reading_run import (
+    UNREADABLE,
     SavedRun,
     genes_as_they_stand,
     read_saved_run,
@@ -47,21 +51,27 @@ class Book:
     parameters : Parameters
     user_chromosome : Chromosome or None
         None also where the program assigned it.
+    assigned : Chromosome or None
+        The grasp that the program assigned in its place.
     what_if : Chromosome or None
         Genes that the designer typed into the What-if card.
     picks : Picks
         Designs that the designer picked from the lists.
     trade_offs : TradeOffs or None
         The list of the sheet ``Trade-offs``, as it was written.
+    set_aside : SetAside
+        Genes of the designer that the option space does not have.
     """
 
     source: Source
     space: OptionSpace
     parameters: Parameters
     user_chromosome: Chromosome | None
+    assigned: Chromosome | None
     what_if: Chromosome | None
     picks: Picks
     trade_offs: TradeOffs | None
+    set_aside: SetAside
 
     @property
     def warnings(self) -> tuple[Problem, ...]:
@@ -128,7 +138,8 @@ def _book(source: Source, *, stale_genes: bool) -> Book:
                 return Chromosome(genes_as_they_stand(source, block))
         return read_chromosome(source, space, block)
 
-    user = None if _is_assigned(source) else typed(layout.USER_BLOCK)
+    assigned = _assigned(source)
+    user = None if assigned else typed(layout.USER_BLOCK)
     what_if = typed(layout.WHAT_IF) if _is_typed(source, layout.WHAT_IF) else None
     usable = Picks(
         *(
@@ -136,8 +147,12 @@ def _book(source: Source, *, stale_genes: bool) -> Book:
             for picker, picked in zip((DESIGN_PICK, TRADE_OFF_PICK), picks, strict=True)
         )
     )
+    set_aside = SetAside(
+        _set_aside(source, layout.USER_BLOCK, run_log.USER_SET_ASIDE) if user is None else None,
+        _set_aside(source, layout.WHAT_IF, run_log.WHAT_IF_SET_ASIDE) if what_if is None else None,
+    )
     source.finish()
-    return Book(source, space, parameters, user, what_if, usable, trade_offs)
+    return Book(source, space, parameters, user, assigned, what_if, usable, trade_offs, set_aside)
 
 
 def _usable_pick(
@@ -163,18 +178,33 @@ def _usable_pick(
     return None
 
 
-def _is_assigned(source: Source) -> bool:
-    """Tell whether the program chose the user-defined chromosome, and nobody typed over it."""
+def _assigned(source: Source) -> Chromosome | None:
+    """Return the user-defined chromosome if the program chose it, and nobody typed over it."""
     area = find_block(source, layout.USER_BLOCK)
     written = source.names.get(run_log.BENCHMARK_WRITTEN)
     if area is None or written is None or min(area.row - 2, area.column - 1) < 0:
-        return False
+        return None
     if layout.ASSIGNED_MARK not in str(source.value(area.cell(-2, -1))):
-        return False
+        return None
     with suppress(ValueError):
         genes = Chromosome(genes_as_they_stand(source, layout.USER_BLOCK))
-        return genes_text(genes) == source.value(written)
-    return False
+        return genes if genes_text(genes) == source.value(written) else None
+    return None
+
+
+def _set_aside(source: Source, block: Field, name: str) -> Chromosome | None:
+    """Return genes of the designer that were set aside, and warn of them; else None."""
+    with suppress(*UNREADABLE):
+        genes = np.array(json.loads(str(source.value(source.names[name]))), dtype=np.int64)
+        if genes.shape[:-1] == (len(layout.KINDS),):
+            source.warn(
+                source.names[name].where,
+                f"genes of {block.label} that the option space did not have",
+                "none",
+                "type others on GA; these are kept",
+            )
+            return Chromosome(genes)
+    return None
 
 
 def _is_typed(source: Source, block: Field) -> bool:

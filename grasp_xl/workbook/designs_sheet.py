@@ -26,6 +26,7 @@ from grasp_xl.workbook.picker import (
     constant,
     slot_labels,
 )
+from grasp_xl.workbook.result_title import write_result_title
 from grasp_xl.workbook.scatter import CHART_COLUMNS, CHART_ROWS, structure_against_deviation
 from grasp_xl.workbook.styles import Style
 from grasp_xl.workbook.table import (
@@ -83,7 +84,7 @@ def write_valid_designs(
     genes = gene_labels(result.space)
     labels = ["No.", "Generation", *genes, *own_units, *NORMALISED, "Divergence", "Meets All Goals"]
     rows = max(1, len(designs))
-    pen.write(0, 0, "VALID DESIGNS", Style.TITLE)
+    write_result_title(pen, "VALID DESIGNS")
     _picker(pen, result, rows, unpicked, picked, overruled)
     _rows(pen, result, designs)
     _rows_to_copy(pen, result, designs, TABLE_ROW + rows + 3)

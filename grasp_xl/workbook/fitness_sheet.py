@@ -7,6 +7,7 @@ from grasp_xl.search.result import Result
 from grasp_xl.workbook.layout import FITNESS_TABLE, Area
 from grasp_xl.workbook.pen import CellValue, Pen
 from grasp_xl.workbook.proved import ALL_GRASPS, Proved
+from grasp_xl.workbook.result_title import write_result_title
 from grasp_xl.workbook.styles import Style
 from grasp_xl.workbook.table import DASH
 
@@ -33,7 +34,7 @@ def write_fitness_table(pen: Pen, result: Result, proved: Proved | None) -> None
 
     Below it what the exact search says, where somebody asked it.
     """
-    pen.write(0, 0, "FITNESS TABLE", Style.TITLE)
+    write_result_title(pen, "FITNESS TABLE")
     pen.row(2, 0, COLUMNS, Style.HEADER)
     rows = [(BENCHMARK, result.benchmark)]
     for generation in result.report_generations():

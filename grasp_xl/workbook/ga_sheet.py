@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from grasp_xl.chromosome import Chromosome
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.result import Result
 from grasp_xl.task import Task
@@ -17,6 +16,7 @@ from grasp_xl.workbook.cards import (
     title_cells,
     user_cells,
 )
+from grasp_xl.workbook.carrying import SetAside
 from grasp_xl.workbook.guidance import guide_blocks, guide_card, guide_parameters
 from grasp_xl.workbook.layout import GA, Area, Card, Layout
 from grasp_xl.workbook.pen import LEAST_SCALE, PAGE_WIDTH, ROW_HEIGHT, CellValue, Pen
@@ -27,6 +27,9 @@ from grasp_xl.workbook.styles import Style
 
 EDITED = "Edited since the search for the optimum"
 """Title of the exact search's card once genes or inputs are others than those of its proof."""
+
+SEE_LOG = "; yours do not fit: see Run Log"
+"""Addition to a title where genes of the designer were set aside."""
 
 USER_CALC = 0
 """Place of the user-defined block's helper cells on ``Calc``; the cards' follow."""
@@ -42,8 +45,8 @@ class Shown:
         Grasp of the What-if card.
     typed_what_if : bool
         Whether the designer typed it; else its genes follow the picked design.
-    stale_user : Chromosome or None
-        User-defined genes that the option space does not have: shown, not used.
+    set_aside : SetAside
+        Genes of the designer that the option space does not have.
     proved : Proved or None
         What the exact search says; None where nobody asked it.
     picker : Picker
@@ -52,7 +55,7 @@ class Shown:
 
     what_if: Grasp
     typed_what_if: bool
-    stale_user: Chromosome | None
+    set_aside: SetAside
     proved: Proved | None
     picker: Picker = DESIGN_PICK
 
@@ -155,11 +158,11 @@ def _parameters(pen: Pen, plan: Layout, task: Task) -> None:
 def _blocks(pen: Pen, plan: Layout, task: Task, result: Result, shown: Shown) -> None:
     state = result.state
     remark = f" {layout.ASSIGNED_MARK}" if task.assigned else ""
-    if shown.stale_user:
-        remark = " (stale: choose other indices)"
+    if remark and shown.set_aside.user:
+        remark += SEE_LOG
     blocks = (
         (layout.RANDOM_BLOCK, f" (seed {task.settings.seed})", state.random_chromosome),
-        (layout.USER_BLOCK, remark, shown.stale_user or task.benchmark.chromosome),
+        (layout.USER_BLOCK, remark, task.benchmark.chromosome),
         (layout.INITIAL_BLOCK, "", state.initial),
         (layout.PARENT_BLOCK, "", state.parent),
         (layout.MATRIX_BLOCK, "", None),
@@ -195,7 +198,8 @@ def _cards(plan: Layout, task: Task, result: Result, shown: Shown) -> dict[str, 
         grasp = evaluate(task.space, task.rules, child)
         title = f"Child {number + 1}{elite}"
         cards[f"Child{number + 1}"] = live(number, plan.card(number), title, grasp)
-    what_if = live(len(cards), plan.what_if, layout.WHAT_IF.label, shown.what_if)
+    aside = SEE_LOG if shown.set_aside.what_if and not shown.typed_what_if else ""
+    what_if = live(len(cards), plan.what_if, f"{layout.WHAT_IF.label}{aside}", shown.what_if)
     what_if = replace(what_if, typed=True)
     if not shown.typed_what_if:
         what_if = replace(what_if, gene_formulas=shown.picker.picked_genes(plan.gene_slots))

@@ -13,6 +13,7 @@ from grasp_xl.search.result import Result, Rows, gene_columns
 from grasp_xl.workbook.layout import HISTORY, HISTORY_ROW, Area
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.proved import Proved, charted
+from grasp_xl.workbook.result_title import write_result_title
 from grasp_xl.workbook.styles import BLUE, GREEN, GREY, Style
 from grasp_xl.workbook.table import (
     CRITERIA,
@@ -68,7 +69,7 @@ def write_history(
     history = _listed(result)
     genes = gene_columns(result.space)
     labels = ["Generation", *(label for _, _, label, _ in CRITERIA), *gene_labels(result.space)]
-    pen.write(0, 0, "HISTORY: the generations where the fittest grasp changed", Style.TITLE)
+    write_result_title(pen, "HISTORY: the generations where the fittest grasp changed")
     looks = (Style.COUNT, *(style for _, _, _, style in CRITERIA), *gene_styles(result.space))
     columns = ["generation", *(name for name, _, _, _ in CRITERIA), *genes]
     for row, values in enumerate(history[columns].tolist(), HISTORY_ROW + 1):

@@ -10,6 +10,7 @@ from grasp_xl import __version__
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.search.result import Result
 from grasp_xl.task import Task
+from grasp_xl.workbook.carrying import NOTHING_ASIDE, SetAside
 from grasp_xl.workbook.designs_sheet import MAX_DESIGNS
 from grasp_xl.workbook.history_sheet import MAX_HISTORY, listed_from
 from grasp_xl.workbook.inputs import (
@@ -38,6 +39,10 @@ WHAT_IF_WRITTEN = "WhatIfWritten"
 
 BENCHMARK_WRITTEN = "BenchmarkWritten"
 """The benchmark's genes as we wrote them, by which typing over an assigned one is told apart."""
+
+USER_SET_ASIDE = "UserSetAside"
+WHAT_IF_SET_ASIDE = "WhatIfSetAside"
+"""Genes of a designer that the option space does not have, by which a later one gets them back."""
 
 PROOF_STATUS = "ProofStatus"
 PROOF_BOUND = "ProofBound"
@@ -75,6 +80,7 @@ def write_run_log(
     origin: Origin,
     what_if: Chromosome,
     proved: Proved | None,
+    set_aside: SetAside = NOTHING_ASIDE,
     trade_offs: str = "",
 ) -> None:
     """Write the sheet: a label, a value, and for some a defined name.
@@ -101,6 +107,8 @@ def write_run_log(
         ("Best grasp (genes)", genes_text(state.best), BEST_GRASP),
         ("What-if card as written (genes)", genes_text(what_if), WHAT_IF_WRITTEN),
         (BENCHMARK_GENES, genes_text(task.benchmark.chromosome), BENCHMARK_WRITTEN),
+        ("User-defined genes set aside", genes_text(set_aside.user), USER_SET_ASIDE),
+        ("What-if genes set aside", genes_text(set_aside.what_if), WHAT_IF_SET_ASIDE),
         ("Valid designs found", state.earlier_designs + len(state.designs), DESIGNS_FOUND),
         ("Valid designs listed", min(len(state.designs), MAX_DESIGNS), ""),
         ("Changes listed in the history", min(len(state.changes), MAX_HISTORY), ""),

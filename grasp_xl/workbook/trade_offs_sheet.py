@@ -23,6 +23,7 @@ from grasp_xl.workbook.picker import (
     PickHint,
     blank_like,
 )
+from grasp_xl.workbook.result_title import write_result_title
 from grasp_xl.workbook.scatter import (
     CHART_COLUMNS,
     CHART_ROWS,
@@ -127,7 +128,7 @@ def write_trade_offs(
     norms = NORMALISED[1:]
     labels = ["No.", "Proof", *genes, *own_units, *norms, "Divergence", "Meets All Goals", *WEIGHTS]
     rows = max(1, len(designs))
-    pen.write(0, 0, "TRADE-OFFS", Style.TITLE)
+    write_result_title(pen, "TRADE-OFFS")
     pen.write(TOLD_ROW, 0, trade_offs.told, Style.NOTE)
     number = trade_offs.number_of(picked)
     others = blank_like(DESIGN_PICK.picked_genes(space.gene_slots), unpicked)

@@ -14,6 +14,7 @@ from grasp_xl.space import OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.calc_sheet import write_calc
+from grasp_xl.workbook.carrying import NOTHING_ASIDE, SetAside
 from grasp_xl.workbook.designs_sheet import number_of, write_valid_designs
 from grasp_xl.workbook.fitness_sheet import write_fitness_table
 from grasp_xl.workbook.ga_sheet import Shown, parameter_values, user_block, write_ga
@@ -40,7 +41,7 @@ def full_workbook(
     *,
     what_if: Chromosome | None = None,
     picks: Picks = NO_PICKS,
-    stale_user: Chromosome | None = None,
+    set_aside: SetAside = NOTHING_ASIDE,
     proved: Proved | None = None,
     trade_offs: TradeOffs | None = None,
 ) -> tuple[bytes, Filled]:
@@ -57,8 +58,8 @@ def full_workbook(
         Designs that the designer picked: the one that the What-if card shows stays there unless
         others were typed, as the pick where it is in its list, else as typed genes.  Where nothing
         was typed or picked, the card shows the best grasp: of the run, else of the exact search.
-    stale_user : Chromosome, optional
-        User-defined genes that this option space does not have: shown, not used.
+    set_aside : SetAside
+        Genes of the designer that this option space does not have: named and kept.
     proved : Proved, optional
         What the exact search says.
     trade_offs : TradeOffs, optional
@@ -70,7 +71,7 @@ def full_workbook(
     typed = what_if is not None or on_card not in (*picks, None)
     grasp = evaluate(task.space, task.rules, on_card) if on_card else best
     picker = TRADE_OFF_PICK if trade_offs else DESIGN_PICK
-    shown = Shown(grasp, typed, stale_user, proved, picker)
+    shown = Shown(grasp, typed, set_aside, proved, picker)
     plan = Layout(task.space.gene_slots, task.settings.children)
 
     file = io.BytesIO()
@@ -103,7 +104,7 @@ def full_workbook(
     write_grasp(pens[layout.GRASP], book, task.space, pictures)
     fingerprint = trade_offs.fingerprint if trade_offs else ""
     log = pens[layout.RUN_LOG]
-    write_run_log(log, task, result, origin, best.chromosome, proved, fingerprint)
+    write_run_log(log, task, result, origin, best.chromosome, proved, set_aside, fingerprint)
     blocks = [(layout.USER_BLOCK.label, benchmark.block, result.benchmark)]
     blocks += [(card.title, card.block, card.grasp) for card in cards.values()]
     write_calc(pens[layout.CALC], task.space, _inputs(task), blocks, plan)
