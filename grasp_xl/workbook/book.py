@@ -138,7 +138,7 @@ def _book(source: Source, *, stale_genes: bool) -> Book:
                 return Chromosome(genes_as_they_stand(source, block))
         return read_chromosome(source, space, block)
 
-    assigned = _assigned(source)
+    assigned = _assigned(source, space)
     user = None if assigned else typed(layout.USER_BLOCK)
     what_if = typed(layout.WHAT_IF) if _is_typed(source, layout.WHAT_IF) else None
     usable = Picks(
@@ -178,8 +178,11 @@ def _usable_pick(
     return None
 
 
-def _assigned(source: Source) -> Chromosome | None:
-    """Return the user-defined chromosome if the program chose it, and nobody typed over it."""
+def _assigned(source: Source, space: OptionSpace) -> Chromosome | None:
+    """Return the user-defined chromosome if the program chose it, and nobody typed over it.
+
+    It has as many genes as the option space, though not all may be usable.
+    """
     area = find_block(source, layout.USER_BLOCK)
     written = source.names.get(run_log.BENCHMARK_WRITTEN)
     if area is None or written is None or min(area.row - 2, area.column - 1) < 0:
@@ -188,7 +191,8 @@ def _assigned(source: Source) -> Chromosome | None:
         return None
     with suppress(ValueError):
         genes = Chromosome(genes_as_they_stand(source, layout.USER_BLOCK))
-        return genes if genes_text(genes) == source.value(written) else None
+        if genes_text(genes) == source.value(written):
+            return carried(genes, space, space, layout.USER_BLOCK.label)[0]
     return None
 
 
