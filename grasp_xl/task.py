@@ -154,7 +154,11 @@ def settle(
             Problem(
                 "User-Defined Chromosome",
                 f"a grasp with FoS {benchmark.fos:.4g} and clearance "
-                + (f"{benchmark.clearance_mm:.4g} mm" if benchmark.clearance_mm else "-"),
+                + (
+                    f"{benchmark.clearance_mm:.4g} mm"
+                    if benchmark.clearance_mm is not None
+                    else "-"
+                ),
                 f"FoS {requirements.fos:g} and {requirements.clearance_mm:g} mm",
                 "a run that starts from it draws random grasps until one passes",
             )
