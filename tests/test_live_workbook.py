@@ -32,7 +32,7 @@ from grasp_xl.space import OptionSpace, Part
 from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook import grasp_sheet, layout
 from grasp_xl.workbook.book import read_book
-from grasp_xl.workbook.calc_sheet import CalcBlock
+from grasp_xl.workbook.calc_block import CalcBlock
 from grasp_xl.workbook.grasp_sheet import Picture
 from grasp_xl.workbook.layout import (
     APPROXIMATION_COLUMN,

@@ -14,6 +14,7 @@ from grasp_xl.grasp import Grasp
 from grasp_xl.rules import TERMS, Rules
 from grasp_xl.space import OptionSpace
 from grasp_xl.stability import support
+from grasp_xl.workbook.calc_block import CalcBlock
 from grasp_xl.workbook.calc_inputs import (
     DASH,
     GOALS_FAULT,
@@ -23,7 +24,6 @@ from grasp_xl.workbook.calc_inputs import (
     used,
 )
 from grasp_xl.workbook.calc_rules import SLACK
-from grasp_xl.workbook.calc_sheet import CalcBlock
 from grasp_xl.workbook.layout import (
     DIVERGENCE_LABEL,
     FITNESS_HEADER,

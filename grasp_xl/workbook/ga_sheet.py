@@ -8,7 +8,7 @@ from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.result import Result
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout
-from grasp_xl.workbook.calc_sheet import CalcBlock
+from grasp_xl.workbook.calc_block import CalcBlock
 from grasp_xl.workbook.cards import (
     GENE_STYLES,
     LiveCard,

@@ -17,12 +17,8 @@ import numpy as np
 from grasp_xl.grasp import Grasp
 from grasp_xl.space import FloatArray, OptionSpace
 from grasp_xl.workbook import layout
-from grasp_xl.workbook.calc_sheet import (
-    EDGE_COLUMN,
-    PART_POLYGON_COLUMN,
-    CalcBlock,
-    closed_polygon,
-)
+from grasp_xl.workbook.calc_block import CalcBlock
+from grasp_xl.workbook.calc_edges import EDGE_COLUMN, PART_POLYGON_COLUMN, closed_polygon
 from grasp_xl.workbook.calc_values import truss_ends
 from grasp_xl.workbook.layout import (
     DEFAULT_DIAMETERS_MM,

@@ -19,7 +19,7 @@ from grasp_xl.search.result import State, Trace, gene_columns, load_stream
 from grasp_xl.space import IntArray, OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout, run_log
-from grasp_xl.workbook.calc_sheet import CalcBlock
+from grasp_xl.workbook.calc_block import CalcBlock
 from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank
 from grasp_xl.workbook.history_sheet import MAX_HISTORY
 from grasp_xl.workbook.inputs import changed_inputs
