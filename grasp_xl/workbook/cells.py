@@ -187,6 +187,9 @@ class Source:
 
     def grid(self, sheet: str, *, formulas: bool = False, rows: int = MAX_ROWS) -> Grid:
         """Return the values (or formulas) of a sheet or of its first rows, read once."""
+        whole = self._grids.get((sheet, formulas, MAX_ROWS))
+        if whole:
+            return whole
         key = (sheet, formulas, rows)
         if key not in self._grids:
             book = self.formulas if formulas else self.values
@@ -202,8 +205,7 @@ class Source:
 
     def formula(self, cell: Area) -> str | None:
         """Return the formula of a cell, without ``=``; None where it holds none."""
-        rows = LABEL_ROWS if cell.row < LABEL_ROWS else MAX_ROWS
-        value = self.grid(cell.sheet, formulas=True, rows=rows).at(cell.row, cell.column)
+        value = self._grid_with(cell, formulas=True).at(cell.row, cell.column)
         text = getattr(value, "text", value)  # an array formula is an object
         return text.removeprefix("=") if isinstance(text, str) else None
 
@@ -225,7 +227,12 @@ class Source:
         """Return the value of a cell."""
         if cell in self.worked_out:
             return self.worked_out[cell]
-        return self.grid(cell.sheet).at(cell.row, cell.column)
+        return self._grid_with(cell).at(cell.row, cell.column)
+
+    def _grid_with(self, cell: Area, *, formulas: bool = False) -> Grid:
+        """Return the first rows of a cell's sheet if it is there: long lists stand below inputs."""
+        rows = LABEL_ROWS if cell.row < LABEL_ROWS else MAX_ROWS
+        return self.grid(cell.sheet, formulas=formulas, rows=rows)
 
     def complain(self, where: str, found: str, expected: str, hint: str) -> None:
         """Note a problem; reading goes on, so that all are told at once."""

@@ -68,11 +68,12 @@ def _picked_rows(source: Source, picker: Picker, slots: int) -> Area:
 def _picked(source: Source, picker: Picker, listed: int, best: Chromosome) -> Chromosome | None:
     """Look the picked number up in a list, as our formulas do."""
     cell = source.names[picker.name]
-    number, grid = source.value(cell), source.grid(cell.sheet)
+    number = source.value(cell)
     if is_blank(number):
         if not source.blank(cell):
             source.complain(cell.where, UNCALCULATED.found, "a number", UNCALCULATED.hint)
         return None
+    grid = source.grid(cell.sheet)
     for row in range(TABLE_ROW + 1, TABLE_ROW + 1 + listed):
         if grid.at(row, NUMBER_COLUMN) == number:
             columns = range(GENE_COLUMN, GENE_COLUMN + best.genes.size)
