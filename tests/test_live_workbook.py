@@ -9,6 +9,7 @@ import subprocess
 import sys
 import zipfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -29,10 +30,11 @@ from grasp_xl.commands.solve import prove_run
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.stop import Generations
 from grasp_xl.space import OptionSpace, Part
-from grasp_xl.task import Parameters, Task
+from grasp_xl.task import Parameters, Task, settle
 from grasp_xl.workbook import grasp_sheet, layout
 from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.calc_block import CalcBlock
+from grasp_xl.workbook.cells import MAX_NUMBER
 from grasp_xl.workbook.grasp_sheet import Picture
 from grasp_xl.workbook.layout import (
     APPROXIMATION_COLUMN,
@@ -205,6 +207,18 @@ def test_every_formula_of_a_random_case_gives_the_engines_value(seed, office, tm
     """So it is for any option space, chromosome and parameters."""
     path = tmp_path / "case.xlsx"
     path.write_bytes(random_case(seed).workbook())
+    assert differences(office, path) == []
+
+
+def test_a_goal_from_the_benchmark_may_be_any_number(office, tmp_path):
+    """Held far from its centroid, 900 t have a moment above what may be typed; the cards count it."""
+    case = random_case(1)
+    far = case.space.part.centroid_mm + 10_000.0
+    heavy = replace(case.space, part=Part(9e8, far))
+    task = settle(heavy, Parameters(children=2, fos=0.1), case.task.benchmark.chromosome)
+    assert task.rules.goals.base.moment > MAX_NUMBER
+    path = tmp_path / "heavy.xlsx"
+    path.write_bytes(replace(case, task=task).workbook())
     assert differences(office, path) == []
 
 

@@ -104,8 +104,9 @@ DIAMETER = _or_blank(ABOVE_0)
 
 
 def goal(own: str) -> Rule:
-    """Return the rule of a goal; ``own``, the user-defined grasp's value, may also be 0."""
-    return _number(ABOVE_0.words, f"OR({{x}}>={SLACK},{{x}}={own})")
+    """Return the rule of a goal; ``own``, the user-defined grasp's value, may be any number."""
+    typed = f"AND({{x}}>={SLACK},{{x}}<={LIMIT})"
+    return Rule(ABOVE_0.words, f"IF(ISNUMBER({{x}}),IF(OR({typed},{{x}}={own}),1,0),0)")
 
 
 def listed(space: OptionSpace, number: int) -> str:
