@@ -6,13 +6,16 @@ import io
 import re
 import zipfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import openpyxl
 import pytest
-from live_cases import random_case
+from live_cases import Case, random_case
 from openpyxl.utils.cell import coordinate_to_tuple, range_boundaries
 
+from grasp_xl.space import MAX_COUNT
+from grasp_xl.task import Parameters, settle
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.layout import GA
 
@@ -133,3 +136,34 @@ def test_every_sheet_is_one_page_wide(seed):
             (setup,) = re.findall("<pageSetup [^>]*>", sheet)
             assert "scale=" not in setup
             assert "fitToWidth" not in setup  # 1, unless it says otherwise
+
+
+def test_elements_and_trusses_are_painted_above_the_places(parts):
+    """In Excel, where later series lie above, and in LibreOffice, where earlier ones do."""
+    pictures = [text for text in charts(parts) if " grasp</a:t>" in text]
+    assert len(pictures) == 2
+    for picture in pictures:
+        drawn = re.findall(r"<c:yVal>.*?<c:f>(.*?)</c:f>", picture)
+        places = [number for number, cells in enumerate(drawn) if layout.OPTION_SPACE in cells]
+        assert places == list(range(places[0], places[-1] + 1))
+        before, after = drawn[: places[0]], drawn[places[-1] + 1 :]
+        assert before == after[::-1]
+        deleted = re.findall(r'<c:legendEntry><c:idx val="(\d+)"/><c:delete val="1"/>', picture)
+        assert set(map(str, range(len(before)))) <= set(deleted)
+
+
+@pytest.fixture(scope="module")
+def widest() -> dict[str, str]:
+    """Return the text of every part of a workbook with the largest Max. of both kinds."""
+    case = random_case(1)
+    kinds = tuple(replace(each, count_max=MAX_COUNT) for each in case.space.kinds)
+    task = settle(replace(case.space, kinds=kinds), Parameters(children=2), None)
+    content = Case(case.places, task, None).workbook()
+    with zipfile.ZipFile(io.BytesIO(content)) as book:
+        return {name: book.read(name).decode() for name in book.namelist()}
+
+
+def test_no_chart_has_more_series_than_excel_takes(parts, widest):
+    """255, also with 25 cups and 25 magnets: their pictures draw nothing twice."""
+    counts = [chart.count("<c:ser>") for book in (parts, widest) for chart in charts(book)]
+    assert 100 < max(counts) <= 255
