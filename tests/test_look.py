@@ -12,6 +12,7 @@ from pathlib import Path
 import openpyxl
 import pytest
 from live_cases import Case, random_case
+from openpyxl.cell.cell import Cell
 from openpyxl.utils.cell import coordinate_to_tuple, range_boundaries
 
 from grasp_xl.space import MAX_COUNT
@@ -74,6 +75,12 @@ def book(path: Path) -> openpyxl.Workbook:
     return openpyxl.load_workbook(path)
 
 
+def named_cell(book: openpyxl.Workbook, name: str) -> Cell:
+    """Return the first cell of a defined name."""
+    area = layout.area_of(book.defined_names[name].attr_text)
+    return book[area.sheet].cell(area.row + 1, area.column + 1)
+
+
 def test_results_have_their_units(book):
     """In the fitness table by the format of each number, in the history by the label."""
     row = book[layout.FITNESS_TABLE][4]
@@ -81,6 +88,12 @@ def test_results_have_their_units(book):
     assert units == ["", "$", "N-mm", "mm", "mm", ""]
     labels = [cell.value for cell in book[layout.HISTORY][layout.HISTORY_ROW + 1][1:7]]
     assert labels[1:5] == ["Cost ($)", "Residual Moment (N-mm)", "Deviation (mm)", "Structure (mm)"]
+
+
+def test_part_data_show_no_round_off(book):
+    """Up to six decimals, whatever the value: 0.00, not 5.136E-14."""
+    cells = [named_cell(book, field.name) for field in layout.PART.fields]
+    assert {cell.number_format for cell in cells} == {"#,##0.00####"}
 
 
 def test_every_input_has_a_range_and_its_label_a_note(book):

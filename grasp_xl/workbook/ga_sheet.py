@@ -147,7 +147,7 @@ def _parameters(pen: Pen, plan: Layout, task: Task) -> None:
             number = layout.GOAL_NAMES.index(field.name)
             typed = task.parameters.goals[number] is not None
             formula = None if typed else plan.user_term(number).local
-            style = Style.GOAL
+            style = Style.INPUT_MEASURE
         pen.write(cell.row, cell.column, value, style, formula)
     guide_parameters(pen, plan)
 
