@@ -131,6 +131,17 @@ def test_ranges_of_genes_follow_what_is_typed(book):
     assert ("MIN(1,MagnetTotal)", "MagnetTotal") in found
 
 
+def test_the_user_defined_blocks_message_is_as_wide_as_its_block(book):
+    """And stands in two lines between its criteria and the next block, whatever the Max."""
+    genes = layout.area_of(book.defined_names[layout.USER_BLOCK.name].attr_text)
+    plan = layout.Layout(gene_slots=genes.columns - 1, children=2)
+    status, below = plan.user_status, plan.block(layout.INITIAL_BLOCK)
+    assert status.reference.split("!")[1].replace("$", "") in map(str, book[GA].merged_cells.ranges)
+    assert (status.column, status.columns) == (genes.column - 1, genes.columns + 1)
+    assert status.row + status.rows == below.row
+    assert book[GA].cell(below.row + 1, below.column + 1).value == layout.INITIAL_BLOCK.label
+
+
 def test_a_chart_has_its_size_whatever_the_cells_under_it(parts):
     """Each is anchored at one cell, with a size: columns of other widths cannot stretch it."""
     drawings = [text for name, text in parts.items() if name.startswith("xl/drawings/drawing")]
