@@ -14,11 +14,14 @@ import pytest
 from live_cases import Case, random_case
 from openpyxl.cell.cell import Cell
 from openpyxl.utils.cell import coordinate_to_tuple, range_boundaries
+from openpyxl.worksheet.worksheet import Worksheet
+from xlsxwriter.utility import xl_pixel_width
 
 from grasp_xl.space import MAX_COUNT
 from grasp_xl.task import Parameters, settle
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.layout import GA
+from grasp_xl.workbook.pen import LEAST_SCALE, PAGE_WIDTH
 
 
 @pytest.fixture(scope="module")
@@ -177,17 +180,46 @@ def test_elements_and_trusses_are_painted_above_the_places(parts):
 
 
 @pytest.fixture(scope="module")
-def widest() -> dict[str, str]:
-    """Return the text of every part of a workbook with the largest Max. of both kinds."""
+def widest() -> bytes:
+    """Write a workbook with the largest Max. of both kinds."""
     case = random_case(1)
     kinds = tuple(replace(each, count_max=MAX_COUNT) for each in case.space.kinds)
     task = settle(replace(case.space, kinds=kinds), Parameters(children=2), None)
-    content = Case(case.places, task, None).workbook()
-    with zipfile.ZipFile(io.BytesIO(content)) as book:
-        return {name: book.read(name).decode() for name in book.namelist()}
+    return Case(case.places, task, None).workbook()
 
 
 def test_no_chart_has_more_series_than_excel_takes(parts, widest):
     """255, also with 25 cups and 25 magnets: their pictures draw nothing twice."""
-    counts = [chart.count("<c:ser>") for book in (parts, widest) for chart in charts(book)]
+    with zipfile.ZipFile(io.BytesIO(widest)) as book:
+        wide = {name: book.read(name).decode() for name in book.namelist() if "/charts/" in name}
+    counts = [chart.count("<c:ser>") for each in (parts, wide) for chart in charts(each)]
     assert 100 < max(counts) <= 255
+
+
+def pixels(sheet: Worksheet, first: int, last: int) -> float:
+    """Return the width of some columns of a sheet."""
+    known = [each for each in sheet.column_dimensions.values() if each.width]
+    widths = {column: each.width for each in known for column in range(each.min, each.max + 1)}
+    return sum(7 * widths.get(column, 9.14) for column in range(first, last + 1))
+
+
+def test_a_wide_list_is_printed_side_by_side_in_readable_pages(book, widest):
+    """Each with the numbers of the designs, and with a heading in its first row or above it."""
+    wide = openpyxl.load_workbook(io.BytesIO(widest))
+    for opened, abreast in ((book, 1), (wide, 3)):
+        sheet = opened[layout.VALID_DESIGNS]
+        areas = map(layout.area_of, sheet.print_area.split(","))
+        pages = [area for area in areas if area.row in (0, layout.TABLE_ROW)]
+        assert len(pages) == abreast
+        assert sheet.print_title_cols == (None if abreast == 1 else "$A:$A")
+        for page in pages:
+            repeated = pixels(sheet, 1, 1) if page.column else 0
+            width = repeated + pixels(sheet, page.column + 1, page.column + page.columns)
+            assert PAGE_WIDTH / width >= LEAST_SCALE / 100
+
+
+def test_no_label_of_the_run_log_is_cut(book):
+    """The value right of it would hide its end: by the widths of Calibri 11, which is wider."""
+    sheet = book[layout.RUN_LOG]
+    labels = [str(cell.value) for cell in sheet["A"][2:] if cell.value]
+    assert max(map(xl_pixel_width, labels)) < pixels(sheet, 1, 1)

@@ -70,6 +70,11 @@ class Area:
         """Return one cell of the block, counted from its first."""
         return Area(self.sheet, self.row + row, self.column + column)
 
+    def up_to(self, right: Area) -> Area:
+        """Return the area from this one to another beside it."""
+        columns = right.column + right.columns - self.column
+        return Area(self.sheet, self.row, self.column, self.rows, columns)
+
 
 def place(sheet: str, row: int, column: int) -> str:
     """Name a cell as a person does: ``Option Space!B5``."""
