@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -15,8 +16,9 @@ from office import Office, run_office
 
 from grasp_xl.cli.program import main
 from grasp_xl.workbook.book import read_book
-from grasp_xl.workbook.layout import TABLE_ROW, TRADE_OFFS, Area
+from grasp_xl.workbook.layout import TABLE_ROW, TRADE_OFFS, Area, area_of
 from grasp_xl.workbook.picker import GENE_COLUMN, PICK_ROW
+from grasp_xl.workbook.trade_offs_sheet import LEGEND, WEIGHTS
 
 GOALS = "1000,90000,900,9000"
 HINT = Area(TRADE_OFFS, PICK_ROW, 2)
@@ -79,6 +81,24 @@ def test_the_sheet_lists_what_the_json_has(made: Path, capsys: pytest.CaptureFix
         )
         weights = list((design["weights"] or dict.fromkeys("abcd")).values())
         assert list(row[25:29]) == pytest.approx(weights)
+
+
+def test_the_weights_are_printed_on_a_page_of_their_own(made: Path) -> None:
+    """With the numbers of the designs, so that no page is as wide as all of the list."""
+    sheet = openpyxl.load_workbook(made)[TRADE_OFFS]
+    first, weights, charts = map(area_of, sheet.print_area.split(","))
+    header = [cell.value for cell in sheet[TABLE_ROW + 1]]
+    assert header[weights.column : weights.column + weights.columns] == list(WEIGHTS)
+    assert first.columns == weights.column < charts.column
+    assert (sheet.print_title_cols, weights.row) == ("$A:$A", TABLE_ROW)
+
+
+def test_the_legend_says_among_which_grasps_a_design_is_proved(made: Path) -> None:
+    """Among all grasps, in words that need no other sheet."""
+    with zipfile.ZipFile(made) as parts:
+        charts = [parts.read(name).decode() for name in parts.namelist() if "/charts/" in name]
+    (chart,) = [text for text in charts if "Cost against residual moment" in text]
+    assert all(f"<c:v>{name}</c:v>" in chart for name in LEGEND)
 
 
 def test_a_pick_is_on_the_what_if_card_and_beats_that_of_the_designs(

@@ -429,7 +429,7 @@ def user_cells(plan: Layout, grasp: Grasp, block: CalcBlock) -> Iterator[Cell]:
     )
     status = status_formula(block, first.cell(1, 0).local, f"OR({missed})")
     text = status_text(grasp)
-    yield Cell(line.row, line.column, text, Style.STATUS, status, columns=line.columns)
+    yield Cell(line.row, line.column, text, Style.STATUS, status, line.rows, line.columns)
 
 
 def _block_formulas(first: Area, block: CalcBlock) -> list[str]:

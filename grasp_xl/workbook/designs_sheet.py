@@ -55,7 +55,7 @@ COPY_TITLE = (
     "GENES TO COPY: drag over the two rows of a design, copy, and paste on the two rows of the "
     "User-Defined Chromosome"
 )
-NUMBER_WIDTH = 10.5
+NUMBER_WIDTH, NORM_WIDTH = 10.5, 7.5
 NORMALISED = tuple(f"Norm. {label}" for label in FITNESS_HEADER)
 
 
@@ -92,11 +92,13 @@ def write_valid_designs(
     norms = Area(VALID_DESIGNS, TABLE_ROW + 1, labels.index(NORMALISED[0]), rows, len(NORMALISED))
     add_colours(pen, Area(VALID_DESIGNS, TABLE_ROW + 1, 0, rows, len(labels)), norms)
     pen.sheet.freeze_panes(TABLE_ROW + 1, 1)
-    widths = [GENE_WIDTH] * len(genes) + [*CRITERIA_WIDTHS[:-1]] + [8.2] * len(NORMALISED)
+    widths = [GENE_WIDTH] * len(genes) + [*CRITERIA_WIDTHS[:-1]] + [NORM_WIDTH] * len(NORMALISED)
     pen.widths(0, NUMBER_WIDTH, GENERATION_WIDTH, *widths, CRITERIA_WIDTHS[-1], 8.5)
     listed = Area(VALID_DESIGNS, 0, 0, TABLE_ROW + 1 + rows, len(labels))
     chart = Area(VALID_DESIGNS, TABLE_ROW + 1, len(labels) + 1, CHART_ROWS, CHART_COLUMNS)
-    pen.print_pages(listed, pictures=[chart] if len(designs) else [])
+    cuts = map(labels.index, (KINDS[-1].row_label, own_units[0]))
+    pages = pen.list_pages(listed, TABLE_ROW, cuts)
+    pen.print_pages(*pages, pictures=[chart] if len(designs) else [])
     if len(designs):
         records = designs[["deviation", "structure", "cost"]].tolist()
         scatter = structure_against_deviation("Trade-off of the valid designs", records)

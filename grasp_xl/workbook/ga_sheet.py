@@ -19,7 +19,7 @@ from grasp_xl.workbook.cards import (
 from grasp_xl.workbook.carrying import SetAside
 from grasp_xl.workbook.guidance import guide_blocks, guide_card, guide_parameters
 from grasp_xl.workbook.layout import GA, Area, Card, Layout
-from grasp_xl.workbook.pen import LEAST_SCALE, PAGE_WIDTH, ROW_HEIGHT, CellValue, Pen
+from grasp_xl.workbook.pen import ROW_HEIGHT, CellValue, Pen
 from grasp_xl.workbook.picker import DESIGN_PICK, Picker
 from grasp_xl.workbook.proved import NO_PROOF, NOT_PROVED, Proved
 from grasp_xl.workbook.run_log import PROOF_TITLE
@@ -102,22 +102,9 @@ def _look(pen: Pen, plan: Layout, printed: int) -> None:
     for card in cards:
         pen.widths(card.column, 19, *[9] * (card.columns - 1), 2)
     areas = [card.area for card in cards[:printed]]
-    width, _ = pen.sheet.pixels(areas[0])
-    abreast = max(1, min(2, int(PAGE_WIDTH * 100 / LEAST_SCALE / width)))
-    rows = [areas[first : first + abreast] for first in range(0, len(areas), abreast)]
     left = Area(GA, 0, 0, plan.card_row - 1, areas[0].column + areas[0].columns)
     right = Area(GA, 0, areas[1].column, left.rows, areas[1].columns)
-    blocks = [_spanned([left, right])]
-    if pen.sheet.pixels(blocks[0])[0] * LEAST_SCALE > PAGE_WIDTH * 100:
-        blocks = [left, right]
-    pen.print_pages(pictures=[*blocks, *(_spanned(row) for row in rows)])
-
-
-def _spanned(areas: list[Area]) -> Area:
-    """Return the area from the first of some side by side to the last."""
-    first, last = areas[0], areas[-1]
-    columns = last.column + last.columns - first.column
-    return Area(first.sheet, first.row, first.column, first.rows, columns)
+    pen.print_pages(pictures=[*pen.abreast(left, right), *pen.abreast(*areas)])
 
 
 def parameter_values(task: Task) -> dict[str, CellValue]:
@@ -150,7 +137,7 @@ def _parameters(pen: Pen, plan: Layout, task: Task) -> None:
             number = layout.GOAL_NAMES.index(field.name)
             typed = task.parameters.goals[number] is not None
             formula = None if typed else plan.user_term(number).local
-            style = Style.GOAL
+            style = Style.INPUT_MEASURE
         pen.write(cell.row, cell.column, value, style, formula)
     guide_parameters(pen, plan)
 

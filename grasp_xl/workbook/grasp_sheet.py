@@ -69,6 +69,8 @@ PICTURE_COLUMNS = 12
 """Of the default width, from one picture to the next."""
 FIRST_POINT = 3
 NO_POINT = "#N/A"
+MOST_SERIES = 255
+"""That a chart of Excel's may have."""
 
 Number = float | str
 Pair = tuple[Number, Number]
@@ -146,8 +148,8 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
     column += 4
     for number, picture in enumerate(pictures):
         chart = book.add_chart({"type": "scatter", "subtype": "straight"})
-        _add_background(chart, space)
-        column = _add_strokes(pen, chart, space, picture, column, frame)
+        strokes, column = _write_strokes(pen, space, picture, column, frame)
+        _add_series(chart, _places_series(space), [*_polygon_series(space), *strokes])
         _to_scale(chart, frame, picture.title)
         pen.insert_chart(2, number * PICTURE_COLUMNS, chart)
     pen.hide_errors(Area(GRASP, FIRST_POINT, GRASP_DATA_COLUMN, CORNERS + 1, column))
@@ -170,33 +172,40 @@ def _mark(shape: str, colour: str, size: int, *, filled: bool = True) -> dict[st
     return {"line": {"none": True}, "marker": marker}
 
 
-def _add_background(chart: Any, space: OptionSpace) -> None:  # noqa: ANN401 (untyped library)
-    """Draw all footprints and both polygons, straight from their cells."""
+def _places_series(space: OptionSpace) -> list[dict[str, Any]]:
+    """Return a series of all footprints of each kind, straight from their cells."""
+    series = []
     for labels, kind, colour in zip(KINDS, space.kinds, PLACE_COLOURS, strict=True):
         if kind.total:
             x = Area(OPTION_SPACE, layout.FIRST_LOCATION_ROW, labels.column, kind.total)
             y = Area(OPTION_SPACE, x.row, x.column + 1, x.rows)
             look = _mark("circle", colour, 2, filled=False)
-            chart.add_series(_series(f"Places for {labels.plural}", x, y, look))
+            series.append(_series(f"Places for {labels.plural}", x, y, look))
+    return series
+
+
+def _polygon_series(space: OptionSpace) -> list[dict[str, Any]]:
+    """Return both polygons, straight from their cells."""
     corners = len(space.ideal_polygon_mm)
-    for name, column, colour in (
-        ("Part polygon", PART_POLYGON_COLUMN, GREEN),
-        ("Ideal polygon", EDGE_COLUMN + 1, BLUE),
-    ):
-        x, y = closed_polygon(column, corners), closed_polygon(column + 1, corners)
-        chart.add_series(_series(name, x, y, _line(colour, 1.5)))
+    return [
+        _series(
+            name,
+            closed_polygon(column, corners),
+            closed_polygon(column + 1, corners),
+            _line(colour, 1.5),
+        )
+        for name, column, colour in (
+            ("Part polygon", PART_POLYGON_COLUMN, GREEN),
+            ("Ideal polygon", EDGE_COLUMN + 1, BLUE),
+        )
+    ]
 
 
-def _add_strokes(
-    pen: Pen,
-    chart: Any,  # noqa: ANN401 (untyped library)
-    space: OptionSpace,
-    picture: Picture,
-    column: int,
-    frame: Frame,
-) -> int:
-    """Draw elements, trusses and centres; return the next free column."""
-    unnamed = []
+def _write_strokes(
+    pen: Pen, space: OptionSpace, picture: Picture, column: int, frame: Frame
+) -> tuple[list[dict[str, Any]], int]:
+    """Write the points of elements, trusses and centres; return series and next free column."""
+    series = []
     for name, stroke, look in _strokes(space, picture, column, frame):
         pen.write(2, column, name or "(more)", Style.HEADER)
         for row, (point, formulas) in enumerate(
@@ -205,18 +214,34 @@ def _add_strokes(
             for axis in range(2):
                 pen.write(row, column + axis, point[axis], Style.COORDINATE, formulas[axis])
         x = Area(GRASP, FIRST_POINT, column, len(stroke.points))
-        if look is not None:
-            chart.add_series(_series(name, x, Area(GRASP, x.row, column + 1, x.rows), look))
-            if not name:
-                unnamed.append(len(chart.series) - 1)
+        series.append(_series(name, x, Area(GRASP, x.row, column + 1, x.rows), look))
         column += 2
-    chart.set_legend({"position": "bottom", "delete_series": unnamed})
-    return column + 1
+    return series, column + 1
+
+
+def _add_series(
+    chart: Any,  # noqa: ANN401 (untyped library)
+    below: list[dict[str, Any]],
+    above: list[dict[str, Any]],
+) -> None:
+    """Draw some series below others, each of these above the one before it.
+
+    Excel draws later series over earlier ones, LibreOffice the other way.  So what is above stands
+    on both sides of what is below, mirrored, and once in the legend.  Where a chart cannot have so
+    many series (a Max. above 20 of both kinds), it is right in Excel only.
+    """
+    mirrored = above[::-1] if 2 * len(above) + len(below) <= MOST_SERIES else []
+    series = [*mirrored, *below, *above]
+    for each in series:
+        chart.add_series(each)
+    unnamed = [number for number, each in enumerate(series) if not each["name"]]
+    hidden = sorted({*range(len(mirrored)), *unnamed})
+    chart.set_legend({"position": "bottom", "delete_series": hidden})
 
 
 def _strokes(
     space: OptionSpace, picture: Picture, column: int, frame: Frame
-) -> Iterator[tuple[str, Stroke, dict[str, Any] | None]]:
+) -> Iterator[tuple[str, Stroke, dict[str, Any]]]:
     """Yield name, points and look, from the bottom up; only one of a group has a name."""
     block = picture.block
     rows = [row for row in range(block.size) if space.kinds[row // block.slots].total]
@@ -333,10 +358,7 @@ def _outline(space: OptionSpace, picture: Picture, row: int) -> Stroke:
 
 
 def _fill(space: OptionSpace, picture: Picture, row: int, frame: Frame) -> Stroke:
-    """Fill an element up to its outline with rings.
-
-    Excel draws later series over earlier ones, LibreOffice the other way: neither covers another.
-    """
+    """Fill an element up to its outline with rings."""
     _, inset_mm = _filling(space, row // picture.block.slots, frame)
     return _circle(space, picture, row, slice(len(OUTLINE), len(OUTLINE) + len(FILL)), inset_mm)
 

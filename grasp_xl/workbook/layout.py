@@ -70,6 +70,11 @@ class Area:
         """Return one cell of the block, counted from its first."""
         return Area(self.sheet, self.row + row, self.column + column)
 
+    def up_to(self, right: Area) -> Area:
+        """Return the area from this one to another beside it."""
+        columns = right.column + right.columns - self.column
+        return Area(self.sheet, self.row, self.column, self.rows, columns)
+
 
 def place(sheet: str, row: int, column: int) -> str:
     """Name a cell as a person does: ``Option Space!B5``."""
@@ -282,7 +287,7 @@ class Layout:
         row, column = {
             RANDOM_BLOCK.name: (1, left),
             USER_BLOCK.name: (6, left),
-            INITIAL_BLOCK.name: (13, left),
+            INITIAL_BLOCK.name: (14, left),
             PARENT_BLOCK.name: (1, right),
             MATRIX_BLOCK.name: (6, right),
         }[block.name]
@@ -300,9 +305,9 @@ class Layout:
 
     @property
     def user_status(self) -> Area:
-        """What the user-defined block says of its grasp, in a line as wide as two blocks."""
+        """What the user-defined block says of its grasp: two lines of its own width."""
         first = self.user_fitness.cell(2, 0)
-        return Area(GA, first.row, first.column, 1, 2 * self.what_if.columns + 1)
+        return Area(GA, first.row, first.column, 2, self.what_if.columns)
 
     def user_term(self, number: int) -> Area:
         """Value of a term, cost first, of the user-defined chromosome: its goal by default."""

@@ -76,11 +76,12 @@ def _sections(pen: Pen, space: OptionSpace, *, live: bool) -> None:
         rest = (kind.force_n, kind.price, kind.weight_g, kind.total)
         values.append((labels.section, (*counts, *rest)))
     for section, data in values:
+        style = Style.INPUT_MEASURE if section is layout.PART else Style.INPUT
         pen.row(section.row, 0, (section.heading, None), Style.HEADING)
         for field, value in zip(section.fields, data, strict=True):
             row = section.row_of(field.name)
             pen.write(row, 0, field.label, Style.LABEL)
-            pen.write(row, 1, value, Style.INPUT)
+            pen.write(row, 1, value, style)
             if live:
                 pen.name_area(field.name, Area(OPTION_SPACE, row, 1))
 

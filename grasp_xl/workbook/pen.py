@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Any
 
@@ -230,6 +230,46 @@ class Pen:
         if lists and not legible:
             for picture in pages[len(lists) :]:
                 self._widen(picture)
+
+    def abreast(self, *areas: Area, repeated: float = 0.0) -> list[Area]:
+        """Join areas that stand side by side, as long as a page of both is legible.
+
+        ``repeated`` is the width of the columns that every page but the first repeats (pixels).
+        """
+        pages = [areas[0]]
+        for area in areas[1:]:
+            joined = pages[-1].up_to(area)
+            width = self.sheet.pixels(joined)[0] + (repeated if len(pages) > 1 else 0)
+            if width * LEAST_SCALE <= PAGE_WIDTH * 100:
+                pages[-1] = joined
+            else:
+                pages.append(area)
+        return pages
+
+    def list_pages(self, listed: Area, header: int, cuts: Iterable[int]) -> list[Area]:
+        """Return the pages of a list, one beside the other where it is too wide to be legible.
+
+        Parameters
+        ----------
+        listed : Area
+            Its first column is repeated on every page.
+        header : int
+            Row of the headings, with which all pages but the first begin.
+        cuts : iterable of int
+            Columns before which a page may end.
+        """
+        starts = [listed.column, *cuts]
+        ends = [*starts[1:], listed.column + listed.columns]
+        parts = [
+            Area(listed.sheet, listed.row, start, listed.rows, end - start)
+            for start, end in zip(starts, ends, strict=True)
+        ]
+        repeated, _ = self.sheet.pixels(listed.cell(0, 0))
+        first, *others = self.abreast(*parts, repeated=repeated)
+        if others:
+            self.sheet.repeat_columns(listed.column)
+        rows = listed.row + listed.rows - header
+        return [first, *(replace(page, row=header, rows=rows) for page in others)]
 
     def _widen(self, picture: Area) -> None:
         """Make a picture's last column so wide that a page of its width has its height as well."""

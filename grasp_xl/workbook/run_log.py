@@ -55,6 +55,8 @@ PROOF_TITLE = "ProofTitle"
 TRADE_OFFS_HASH = "TradeOffsHash"
 """Hash of the trade-offs as we wrote them, by which edited ones are told apart."""
 
+LABEL_WIDTH = 40
+"""Width of the column of labels: as much as the longest takes."""
 VALUE_WIDTH = 90
 """Width of the column of values: at least as many characters to a line."""
 
@@ -133,7 +135,7 @@ def write_run_log(
     row = _write_inputs(pen, inputs + 1, parameter_rows(task)) + 1
     pen.write(row, 0, "Option space (lists: hashes)", Style.HEADING)
     row = _write_inputs(pen, row + 1, space_rows(task.space))
-    pen.widths(0, 32, VALUE_WIDTH)
+    pen.widths(0, LABEL_WIDTH, VALUE_WIDTH)
     pages = [Area(RUN_LOG, 0, 0, inputs - 1, 2), Area(RUN_LOG, inputs, 0, row - inputs, 2)]
     pen.print_pages(pictures=pages)
 

@@ -75,7 +75,10 @@ class Style(Enum):
     INPUT = "input", {**_INPUT}
     INPUT_TEXT = "input_text", {**_INPUT, "align": "right"}
     INPUT_COORDINATE = "input_coordinate", {**_INPUT, "num_format": "0.0000"}
-    GOAL = "goal", {**_INPUT, "align": "right", "num_format": "#,##0.00####"}
+    INPUT_MEASURE = (
+        "input_measure",
+        {**_INPUT, "align": "right", "num_format": "#,##0.00####"},  # no round-off as 5E-14
+    )
     SUCTION_GENE = "suction_gene", {"bg_color": "#FCD5B4", "align": "center", **_LINE}
     MAGNETS_GENE = "magnets_gene", {"bg_color": "#D8E4BC", "align": "center", **_LINE}
     TYPED_SUCTION_GENE = (

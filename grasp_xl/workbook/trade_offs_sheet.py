@@ -12,8 +12,8 @@ from grasp_xl.chromosome import Chromosome
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import TERMS, Terms
 from grasp_xl.task import Task
-from grasp_xl.workbook.designs_sheet import NORMALISED, NUMBER_WIDTH
-from grasp_xl.workbook.layout import FITNESS_HEADER, TABLE_ROW, TRADE_OFFS, Area
+from grasp_xl.workbook.designs_sheet import NORM_WIDTH, NORMALISED, NUMBER_WIDTH
+from grasp_xl.workbook.layout import FITNESS_HEADER, KINDS, TABLE_ROW, TRADE_OFFS, Area
 from grasp_xl.workbook.pen import CellValue, Pen
 from grasp_xl.workbook.picker import (
     DESIGN_PICK,
@@ -45,6 +45,7 @@ from grasp_xl.workbook.table import (
 )
 
 PROVED, FOUND = "proved", "found"
+LEGEND = ("proved among all grasps", "found, not proved")
 PROOF_COLUMN = NUMBER_COLUMN + 1
 WEIGHTS = tuple(f"Weight {label}" for label in FITNESS_HEADER[1:])
 TOLD_ROW = 1
@@ -143,11 +144,13 @@ def write_trade_offs(
     body = Area(TRADE_OFFS, TABLE_ROW + 1, 0, rows, len(labels))
     add_colours(pen, body, Area(TRADE_OFFS, TABLE_ROW + 1, first, rows, len(norms)))
     pen.sheet.freeze_panes(TABLE_ROW + 1, 1)
-    widths = [GENE_WIDTH] * len(genes) + [*CRITERIA_WIDTHS[:-1]] + [8.2] * len(norms)
+    widths = [GENE_WIDTH] * len(genes) + [*CRITERIA_WIDTHS[:-1]] + [NORM_WIDTH] * len(norms)
     pen.widths(0, NUMBER_WIDTH, 8.5, *widths, CRITERIA_WIDTHS[-1], 8.5, *[7.5] * len(WEIGHTS))
     charts = Area(TRADE_OFFS, TABLE_ROW + 1, len(labels) + 1, CHART_ROWS, 2 * CHART_COLUMNS)
     listed = Area(TRADE_OFFS, 0, 0, TABLE_ROW + 1 + rows, len(labels))
-    pen.print_pages(listed, pictures=[charts] if designs else [])
+    cuts = map(labels.index, (KINDS[-1].row_label, own_units[0], WEIGHTS[0]))
+    pages = pen.list_pages(listed, TABLE_ROW, cuts)
+    pen.print_pages(*pages, pictures=[charts] if designs else [])
     if designs:
         _charts(pen, book, charts, designs, grasps)
     pen.fix_row_heights()
@@ -191,7 +194,7 @@ def _charts(
             "Cost ($)",
             Style.TORQUE,
             Style.MONEY,
-            [PROVED, FOUND],
+            LEGEND,
             proofs,
         ),
     )
