@@ -9,6 +9,7 @@ from typing import Any, ParamSpec, TypeVar, cast
 
 import numba
 import platformdirs
+from numba.core.types import unliteral
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -68,6 +69,9 @@ def _compiled(function: Callable[P, R], **options: bool) -> Callable[P, R]:
         kernel = numba.njit(**settled)(function)
     finally:
         settings.CACHE_DIR = usual
+    # A constant is a number like any other: numba would compile the kernel anew for each.
+    usual = kernel.get_call_template
+    kernel.get_call_template = lambda args, kws: usual(tuple(map(unliteral, args)), kws)
     return cast("Callable[P, R]", kernel)
 
 

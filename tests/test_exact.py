@@ -3,21 +3,27 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from itertools import combinations, product
+from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from spaces import any_rules, option_spaces, plate, some_rules
 
 from grasp_xl.chromosome import from_active
+from grasp_xl.compiled import CACHE_FOLDER
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Rules
 from grasp_xl.search.exact import ExactSettings, solve
+from grasp_xl.search.exact_model import grow_tree
 from grasp_xl.search.genetic import search
 from grasp_xl.search.result import GeneticSettings
 from grasp_xl.search.stop import Generations
 from grasp_xl.search.symmetry import representative, symmetries
+from grasp_xl.search.warm import load_exact_search
 from grasp_xl.space import ElementKind, OptionSpace, Part, frozen
 
 
@@ -160,3 +166,34 @@ def test_nothing_found_in_no_time_is_unknown():
     proof = solve(plate(), some_rules(), stop=lambda: True)
     assert proof.status in ("unknown", "feasible")
     assert proof.bound < math.inf
+
+
+@given(points=st.lists(st.tuples(*[st.integers(0, 9)] * 3), min_size=1, max_size=40))
+def test_tree_halves_every_box(points):
+    """A box has the bounds of its locations; its two halves share them, lower half first."""
+    xyz = np.array(points, dtype=float)
+    order, corners, run, child = grow_tree(xyz)
+    assert sorted(order) == list(range(len(xyz)))
+    assert len(run) == 2 * len(xyz) - 1
+    for box, (first, last) in enumerate(run.tolist()):
+        inside = xyz[order[first:last], :2]
+        assert corners[box].tolist() == [*inside.min(axis=0), *inside.max(axis=0)]
+        if last - first == 1:
+            assert child[box].tolist() == [-1, -1]
+            continue
+        low, high = run[child[box]].tolist()
+        assert [first, (first + last) // 2, last] == [low[0], low[1], high[1]]
+        assert low[1] == high[0]
+        x, y = corners[box, 2:] - corners[box, :2]
+        along = inside[:, 0 if x >= y else 1]
+        assert along[: low[1] - first].max() <= along[low[1] - first :].min()
+
+
+def test_no_kernel_is_compiled_twice():
+    """Neither constants nor layouts of arrays make a kernel of the exact search compile again."""
+    load_exact_search()
+    versions = Counter(
+        path.name.rsplit(".", 2)[0] for path in Path(CACHE_FOLDER).rglob("exact_*.nbc")
+    )
+    assert versions
+    assert set(versions.values()) == {1}

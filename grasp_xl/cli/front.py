@@ -49,7 +49,7 @@ def front(
     from grasp_xl.search.stop import stop_on_ctrl_c
 
     options = parameters(goals, fos, clearance, density_ratio, criterion, moment_arm, seed)
-    show.compile_notice(quiet=quiet, module="exact", seconds=20)
+    show.compile_notice(quiet=quiet, module="exact", seconds=15)
     with stop_on_ctrl_c() as interrupt, show.front_progress(quiet=quiet) as shown:
         found = front_file(
             file,

@@ -115,7 +115,7 @@ def run(
             bar.end()
             if not prove or interrupt.asked:
                 return None
-            show.compile_notice(quiet=quiet, module="exact", what="exact search", seconds=20)
+            show.compile_notice(quiet=quiet, module="exact", what="exact search", seconds=15)
             with suppress(KeyboardInterrupt), show.proof_progress(quiet=quiet) as line:
                 return prove_run(
                     task, result, path, prove_limit, interrupt=interrupt, on_progress=line

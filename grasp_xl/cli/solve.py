@@ -63,7 +63,7 @@ def solve(
     options = parameters(goals, fos, clearance, density_ratio, criterion, moment_arm, seed)
     limit = math.inf if time_limit is None else time_limit
     settings = ExactSettings(limit, gap, top, meet_goals, min_elements)
-    show.compile_notice(quiet=quiet, module="exact", what="exact search", seconds=20)
+    show.compile_notice(quiet=quiet, module="exact", what="exact search", seconds=15)
     try:
         with stop_on_ctrl_c() as interrupt, show.proof_progress(quiet=quiet) as shown:
             solved = solve_file(

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grasp_xl.compiled import compiled, inner
+from grasp_xl.compiled import allocation_free, inner
 from grasp_xl.kernels import RecordArray
 from grasp_xl.search.exact_bound import (
     node_bound,
@@ -66,6 +66,27 @@ def make_nodes(shape: int | tuple[int, ...], elements: int) -> Nodes:
     )
 
 
+# Nodes are copied number by number: numba broadcasts a row that is given to a row, which takes
+# several times as long to compile.
+
+
+@inner
+def of_one(children: Nodes, i: int) -> Nodes:
+    """Return the children of one node, of the children of many."""
+    return Nodes(children.bound[i], children.u[i], children.choice[i], children.boxes[i])
+
+
+@inner
+def copy_node(nodes: Nodes, row: int, to: Nodes, at: int) -> None:
+    """Copy a node to a row of others."""
+    to.bound[at], to.choice[at] = nodes.bound[row], nodes.choice[row]
+    for side in range(SIDES):
+        for axis in range(MULTIPLIERS):
+            to.u[at, side, axis] = nodes.u[row, side, axis]
+    for i in range(nodes.boxes.shape[1]):
+        to.boxes[at, i] = nodes.boxes[row, i]
+
+
 # --- open nodes, best first ---
 
 
@@ -106,7 +127,7 @@ def take_first(order: IntArray, size: int, key: FloatArray, age: IntArray) -> in
     return int(first)
 
 
-@compiled
+@allocation_free
 def take_batch(
     nodes: Nodes,
     order: IntArray,
@@ -126,13 +147,12 @@ def take_batch(
         size -= 1
         if nodes.bound[row] >= below:
             continue
-        batch.bound[taken], batch.choice[taken] = nodes.bound[row], nodes.choice[row]
-        batch.u[taken], batch.boxes[taken] = nodes.u[row], nodes.boxes[row]
+        copy_node(nodes, row, batch, taken)
         taken += 1
     return taken, size
 
 
-@compiled
+@allocation_free
 def put_children(
     nodes: Nodes,
     order: IntArray,
@@ -149,14 +169,13 @@ def put_children(
     ``order`` holds the rows of the open nodes as a heap, and behind them the free rows.
     """
     for i in range(len(born)):
+        mine = of_one(children, i)
         for c in range(born[i]):
-            bound = children.bound[i, c]
-            if bound >= below:
+            if mine.bound[c] >= below:
                 continue
             row = order[size]
-            nodes.bound[row], nodes.choice[row] = bound, children.choice[i, c]
-            nodes.u[row], nodes.boxes[row] = children.u[i, c], children.boxes[i, c]
-            key[row], age[row] = bound, oldest
+            copy_node(mine, c, nodes, row)
+            key[row], age[row] = mine.bound[c], oldest
             oldest += 1
             size += 1
             sift_up(order, size, key, age)
@@ -199,9 +218,9 @@ def tighten(loc: Locations, t: Truss, box: int) -> int:
     return box
 
 
-@compiled
+@inner
 def split(loc: Locations, w: Weights, boxes: IntArray, at: int, out: IntArray) -> int:
-    """Write the boxes of a node's children into ``out (m, n)``; return how many there are."""
+    """Make rows of ``out (m, n)``, copies of a node's boxes, its children's; return how many."""
     n = w.cups + w.magnets
     low, high = loc.child[boxes[at], 0], loc.child[boxes[at], 1]
     last = group_end(w, boxes, n, at)
@@ -210,7 +229,6 @@ def split(loc: Locations, w: Weights, boxes: IntArray, at: int, out: IntArray) -
         last = at + 2
     born = last - at + 1
     for c in range(born):
-        out[c] = boxes
         for i in range(at, last):
             out[c, i] = low if i - at < c else high
         if w.trussed and n > 2:
@@ -218,12 +236,14 @@ def split(loc: Locations, w: Weights, boxes: IntArray, at: int, out: IntArray) -
             first = 2
             while first < n:
                 behind = group_end(w, out[c], n, first)
-                out[c, first:behind] = tighten(loc, t, out[c, first])
+                tight = tighten(loc, t, out[c, first])
+                for i in range(first, behind):
+                    out[c, i] = tight
                 first = behind
     return born
 
 
-@compiled
+@allocation_free
 def expand(
     loc: Locations,
     weights: RecordArray,
@@ -265,14 +285,14 @@ def expand(
     for i in range(first, behind):
         w = weights[batch.choice[i]]
         n = w.cups + w.magnets
-        boxes = batch.boxes[i]
-        found[i] = upper
+        boxes, mine = batch.boxes[i], of_one(children, i)
+        for slot in range(found.shape[1]):
+            found[i, slot] = upper
         born[i] = 0
         at = to_split(loc, w, boxes, n)
         if halt[0]:
             born[i] = 1
-            children.bound[i, 0], children.choice[i, 0] = batch.bound[i], batch.choice[i]
-            children.u[i, 0], children.boxes[i, 0] = batch.u[i], batch.boxes[i]
+            copy_node(batch, i, mine, 0)
             continue
         if w.trussed and n >= MANY and boxes[2] == boxes[n - 1] and (at < 0 or at > 1):
             u = batch.u[i, 0]
@@ -284,17 +304,17 @@ def expand(
             budget = BUDGET if at >= 0 else np.iinfo(np.int64).max
             if enumerate_node(loc, w, boxes, batch.u[i, 0], budget, found[i], genes[i], room):
                 continue
-        born[i] = split(loc, w, boxes, at, children.boxes[i])
+        for c in range(n + 1):
+            copy_node(batch, i, mine, c)
+        born[i] = split(loc, w, boxes, at, mine.boxes)
         for c in range(born[i]):
-            children.choice[i, c] = batch.choice[i]
-            children.u[i, c] = batch.u[i]
-            child, u = children.boxes[i, c], children.u[i, c]
+            child, u = mine.boxes[c], mine.u[c]
             bound = node_bound(loc, w, child, upper - slack, u[0], STEPS, room)
-            children.bound[i, c] = max(bound, batch.bound[i])
+            mine.bound[c] = max(bound, batch.bound[i])
             if bound < upper - slack and len(goal_weights) > 0:
                 goals = goal_weights[batch.choice[i]]
                 if node_bound(loc, goals, child, goals.limit, u[1], STEPS, room) > goals.limit:
-                    children.bound[i, c] = np.inf
+                    mine.bound[c] = np.inf
 
 
 @inner

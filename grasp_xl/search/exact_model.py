@@ -14,7 +14,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from grasp_xl.compiled import compiled
 from grasp_xl.kernels import RecordArray, boundary_distances
 from grasp_xl.rules import SLACK, Rules
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
@@ -110,32 +109,35 @@ def locate(space: OptionSpace, rules: Rules) -> Locations:
     )
 
 
-@compiled
 def grow_tree(xyz: FloatArray) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
-    """Build a kd-tree in plan view down to single points: point order, corners, runs, children."""
-    n = len(xyz)
-    order = np.arange(n)
-    corners, run = np.empty((2 * n, 4)), np.empty((2 * n, 2), dtype=np.int64)
-    child = np.full((2 * n, 2), -1)
-    run[0] = 0, n
-    boxes, done = 1, 0
-    while done < boxes:
-        first, last = run[done]
-        points = xyz[order[first:last]]
-        corners[done, 0], corners[done, 1] = points[:, 0].min(), points[:, 1].min()
-        corners[done, 2], corners[done, 3] = points[:, 0].max(), points[:, 1].max()
-        if last - first > 1:
-            box = corners[done]
-            axis = 0 if box[2] - box[0] >= box[3] - box[1] else 1
-            by = np.argsort(points[:, axis], kind="mergesort")
-            order[first:last] = order[first:last][by]
-            middle = (first + last) // 2
-            for side in range(2):
-                child[done, side] = boxes
-                run[boxes] = (first, middle) if side == 0 else (middle, last)
-                boxes += 1
-        done += 1
-    return order, corners[:boxes], run[:boxes], child[:boxes]
+    """Build a kd-tree in plan view down to single points: point order, corners, runs, children.
+
+    All boxes of a level at once, in NumPy: compiling takes longer than it will ever save.
+    """
+    order = np.arange(len(xyz))
+    level, boxes = np.array([[0, len(xyz)]]), 1
+    corners, run, child = [], [], []
+    while len(level):
+        first, last = level.T
+        size = last - first
+        begin = np.cumsum(size) - size
+        box = np.repeat(np.arange(len(level)), size)
+        place = np.arange(len(box)) + (first - begin)[box]
+        points = xyz[order[place], :2]
+        low, high = np.minimum.reduceat(points, begin), np.maximum.reduceat(points, begin)
+        wide = high - low
+        along = np.where((wide[:, 0] >= wide[:, 1])[box], points[:, 0], points[:, 1])
+        order[place] = order[place][np.lexsort((along, box))]
+        halved = level[size > 1]
+        halves = np.full(level.shape, -1)
+        halves[size > 1] = boxes + np.arange(halved.size).reshape(-1, 2)
+        corners.append(np.hstack([low, high]))
+        run.append(level)
+        child.append(halves)
+        boxes += halved.size
+        middle = halved.sum(axis=1) // 2
+        level = np.column_stack([halved[:, 0], middle, middle, halved[:, 1]]).reshape(-1, 2)
+    return order, np.concatenate(corners), np.concatenate(run), np.concatenate(child)
 
 
 def weigh(

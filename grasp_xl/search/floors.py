@@ -68,7 +68,8 @@ def _moment_floor(space: OptionSpace, requirements: Requirements) -> float:
 def _deviation_floor(space: OptionSpace, choices: Sequence[tuple[int, ...]]) -> float:
     ideal = np.array(space.ideal_polygon_mm)
     nearest = [
-        np.cumsum(np.sort(boundary_distances(kind.footprints_mm, ideal))) for kind in space.kinds
+        np.cumsum(np.sort(boundary_distances(np.array(kind.footprints_mm), ideal)))
+        for kind in space.kinds
     ]
     return min(
         sum(float(sums[n - 1]) for n, sums in zip(counts, nearest, strict=True) if n) / sum(counts)
