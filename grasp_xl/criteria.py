@@ -12,13 +12,14 @@ from itertools import combinations
 
 import numpy as np
 
+from grasp_xl.adding import plain_sum
 from grasp_xl.rules import SLACK, MomentArm
 from grasp_xl.space import FloatArray, IntArray
 
 
 def length(vector: FloatArray) -> float:
     """Return the Euclidean length of a short vector."""
-    return math.sqrt(sum(part * part for part in vector.tolist()))
+    return math.sqrt(plain_sum(part * part for part in vector.tolist()))
 
 
 def lifting_force(counts: IntArray, forces_n: FloatArray) -> float:

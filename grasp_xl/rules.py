@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
+from grasp_xl.adding import plain_sum
 from grasp_xl.errors import UsageError
 
 MomentArm = Literal["3d", "plan"]
@@ -163,7 +164,7 @@ class Rules:
 
     def value(self, values: Terms) -> float:
         """Return the number that the search minimises."""
-        return sum(value / scale for value, scale in zip(values, self.scales, strict=True))
+        return plain_sum(value / scale for value, scale in zip(values, self.scales, strict=True))
 
     @property
     def baseline(self) -> float:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import shapely
 
+from grasp_xl.adding import plain_sum
 from grasp_xl.grasp import Grasp
 from grasp_xl.space import OptionSpace
 
@@ -51,7 +52,7 @@ def support(space: OptionSpace, grasp: Grasp) -> Support:
     ]
     known = [count * weight for count, weight in weights if weight is not None]
     return Support(
-        element_weight_g=sum(known) if len(known) == len(weights) else None,
+        element_weight_g=plain_sum(known) if len(known) == len(weights) else None,
         hull_area_mm2=0.0 if flat else float(hull.area),
         centroid_inside=not flat and bool(hull.distance(centroid) <= FLAT * longest),
         can_swing=flat,

@@ -18,6 +18,7 @@ from typing import Literal, NamedTuple, Self
 
 import numpy as np
 
+from grasp_xl.adding import plain_sum
 from grasp_xl.chromosome import Chromosome, from_active
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import SLACK, Rules
@@ -245,7 +246,7 @@ class _Search:
     def _affordable(self, counts: tuple[int, ...]) -> bool:
         if not self.settings.meet_goals or "cost" in self.rules.goals.dropped:
             return True
-        cost = sum(n * kind.price for n, kind in zip(counts, self.space.kinds, strict=True))
+        cost = plain_sum(n * kind.price for n, kind in zip(counts, self.space.kinds, strict=True))
         return cost <= self.rules.goals.base.cost * (1 + SLACK)
 
     def _take_known(self, chromosome: Chromosome) -> None:

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from grasp_xl.adding import plain_sum
 from grasp_xl.kernels import RecordArray, boundary_distances
 from grasp_xl.rules import SLACK, Rules
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
@@ -228,4 +229,4 @@ def least_spread(points: int) -> float:
 
 
 def _dot(counts: Sequence[int], numbers: Sequence[float]) -> float:
-    return sum(count * number for count, number in zip(counts, numbers, strict=True))
+    return plain_sum(count * number for count, number in zip(counts, numbers, strict=True))

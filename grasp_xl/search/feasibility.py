@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import itertools
 
+from grasp_xl.adding import plain_sum
 from grasp_xl.rules import SLACK, Requirements
 from grasp_xl.space import OptionSpace
 
 
 def lifting_force(space: OptionSpace, counts: tuple[int, ...]) -> float:
     """Return the force of so many elements of each kind (N), eq. 11."""
-    return sum(n * kind.force_n for n, kind in zip(counts, space.kinds, strict=True))
+    return plain_sum(n * kind.force_n for n, kind in zip(counts, space.kinds, strict=True))
 
 
 def max_fos(space: OptionSpace) -> float:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 
+from grasp_xl.adding import plain_sum
 from grasp_xl.kernels import boundary_distances
 from grasp_xl.rules import Requirements, Terms
 from grasp_xl.search.feasibility import lifting_counts
@@ -46,7 +47,7 @@ def floors(space: OptionSpace, requirements: Requirements) -> Terms:
     structure = requirements.density_ratio * requirements.clearance_mm
     return Terms(
         cost=min(
-            sum(n * kind.price for n, kind in zip(counts, space.kinds, strict=True))
+            plain_sum(n * kind.price for n, kind in zip(counts, space.kinds, strict=True))
             for counts in choices
         ),
         moment=_moment_floor(space, requirements),
@@ -72,6 +73,7 @@ def _deviation_floor(space: OptionSpace, choices: Sequence[tuple[int, ...]]) -> 
         for kind in space.kinds
     ]
     return min(
-        sum(float(sums[n - 1]) for n, sums in zip(counts, nearest, strict=True) if n) / sum(counts)
+        plain_sum(float(sums[n - 1]) for n, sums in zip(counts, nearest, strict=True) if n)
+        / sum(counts)
         for counts in choices
     )

@@ -55,7 +55,7 @@ def check_place(target: Path, suffix: str, *, force: bool, option: str = "-o") -
                     where=str(target),
                     hint=f"Close it there; if it is not open, delete {lock.name} or add --force",
                 )
-    except (OSError, RuntimeError) as error:  # RuntimeError: a link that leads to itself
+    except OSError as error:
         raise _cannot_write(target, error) from error
     if target.suffix.lower() != suffix:
         raise UsageError(
@@ -66,7 +66,7 @@ def check_place(target: Path, suffix: str, *, force: bool, option: str = "-o") -
 
 
 def _refuse_place(target: Path, option: str) -> None:
-    folder = target.resolve().parent
+    folder = _resolved(target).parent
     if not folder.is_dir():
         raise OutputError(
             f"The folder {folder} does not exist, so nothing was written.",
@@ -132,7 +132,7 @@ def save(content: bytes, target: Path) -> None:
     """
     beside: Path | None = None
     try:
-        target = target.resolve()  # a link stays a link
+        target = _resolved(target)  # a link stays a link
         with tempfile.NamedTemporaryFile(
             dir=target.parent, prefix=".grasp_xl-", suffix=".tmp", delete=False
         ) as file:
@@ -149,6 +149,22 @@ def save(content: bytes, target: Path) -> None:
             beside.unlink(missing_ok=True)  # still there after a failure or a second Ctrl-C
 
 
+def _resolved(target: Path) -> Path:
+    """Follow links.
+
+    Raises
+    ------
+    OSError
+        If a link leads to itself, which ``Path.resolve`` says in other ways in each Python.
+    """
+    try:
+        return target.resolve(strict=True)
+    except (FileNotFoundError, NotADirectoryError):
+        return target.resolve()
+    except RuntimeError as error:
+        raise OSError(errno.ELOOP, "a link that leads to itself") from error
+
+
 def _mode(target: Path) -> int:
     if target.exists():
         return target.stat().st_mode & 0o777
@@ -157,10 +173,10 @@ def _mode(target: Path) -> int:
     return 0o666 & ~mask
 
 
-def _cannot_write(target: Path, error: OSError | RuntimeError) -> OutputError:
-    told = getattr(error, "strerror", None) or str(error) or "an unknown failure"
+def _cannot_write(target: Path, error: OSError) -> OutputError:
+    told = error.strerror or str(error) or "an unknown failure"
     unknown = (told, "choose another name or folder")
-    reason, hint = REASONS.get(getattr(error, "errno", None) or 0, unknown)
+    reason, hint = REASONS.get(error.errno or 0, unknown)
     return OutputError(
         f"{target} cannot be written: {reason}; what stood there before is untouched.",
         where=str(target),
