@@ -203,13 +203,15 @@ def pixels(sheet: Worksheet, first: int, last: int) -> float:
     return sum(7 * widths.get(column, 9.14) for column in range(first, last + 1))
 
 
-def test_a_wide_list_is_printed_side_by_side_in_readable_pages(book, widest):
-    """Each with the numbers of the designs, and with a heading in its first row or above it."""
+@pytest.mark.parametrize("name", [layout.VALID_DESIGNS, layout.HISTORY])
+def test_a_wide_list_is_printed_side_by_side_in_readable_pages(book, widest, name):
+    """Each with the list's first column, and with a heading in its first row or above it."""
     wide = openpyxl.load_workbook(io.BytesIO(widest))
+    header = {layout.VALID_DESIGNS: layout.TABLE_ROW, layout.HISTORY: layout.HISTORY_ROW}[name]
     for opened, abreast in ((book, 1), (wide, 3)):
-        sheet = opened[layout.VALID_DESIGNS]
+        sheet = opened[name]
         areas = map(layout.area_of, sheet.print_area.split(","))
-        pages = [area for area in areas if area.row in (0, layout.TABLE_ROW)]
+        pages = [area for area in areas if area.row in (0, header)]
         assert len(pages) == abreast
         assert sheet.print_title_cols == (None if abreast == 1 else "$A:$A")
         for page in pages:

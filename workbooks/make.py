@@ -20,7 +20,7 @@ from grasp_xl.task import Parameters
 from grasp_xl.workbook.writing import export_workbook
 
 PROVE_SECONDS = 10.0
-"""Longest proof, as by default; that of the floor panel needs more than a minute."""
+"""Longest proof, as by default; every sample needs less."""
 
 
 def make_input(part: SamplePart, folder: Path) -> Path:

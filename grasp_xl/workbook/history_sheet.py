@@ -98,7 +98,11 @@ def write_history(
     pen.widths(0, GENERATION_WIDTH, *CRITERIA_WIDTHS, *[GENE_WIDTH] * len(genes))
     listed = Area(HISTORY, 0, 0, HISTORY_ROW + 1 + rows, len(labels))
     charts = Area(HISTORY, HISTORY_ROW + 1, len(labels) + 1, 3 * CHART_ROWS, CHART_COLUMNS)
-    pen.print_pages(listed, pictures=[charts])
+    slots = result.space.gene_slots
+    pages = pen.list_pages(
+        listed, HISTORY_ROW, map(labels.index, gene_labels(result.space)[:: 1 + slots])
+    )
+    pen.print_pages(*pages, pictures=[charts])
 
 
 def _listed(result: Result) -> Rows:
