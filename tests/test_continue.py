@@ -213,6 +213,20 @@ def test_nothing_more_to_do_leaves_all_as_it_was(bracket: Path) -> None:
     assert content(whole.with_name("whole-result.xlsx")) == content(whole)
 
 
+@pytest.mark.parametrize(
+    ("words", "where", "asked"),
+    [(("--generations", "40"), "--generations", 40), ((), "GA!B7", 50)],
+)
+def test_no_more_generations_than_done_is_a_warning(
+    export: Path, capsys: pytest.CaptureFixture[str], words: tuple[str, ...], where: str, asked: int
+) -> None:
+    """One sentence says where the number stands, how many are done, and what to do."""
+    whole = at_once(export, 50)
+    assert main(["run", str(whole), "--continue", *words]) == 0
+    told = " ".join(capsys.readouterr().err.split())
+    assert f"{where}: found {asked} generations, expected more than the 50 done;" in told
+
+
 def test_a_run_that_the_clock_stopped_goes_on_in_the_same_way(bracket: Path) -> None:
     part = bracket.with_name("part.xlsx")
     assert run(bracket, "-o", part, "--generations", 10**9, "--time-limit", 0.05) == 0

@@ -16,7 +16,7 @@ from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import StopRule
 from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook import layout
-from grasp_xl.workbook.book import read_book
+from grasp_xl.workbook.book import Book, read_book
 from grasp_xl.workbook.saving import (
     check_place,
     check_target,
@@ -105,7 +105,20 @@ def run_file(
     save(content, output.path)
     if output.history:
         save(result.history().to_csv(index=False).encode(), output.history)
+    if saved:
+        idle = _nothing_asked(book, options, task.generations, saved.state.generation)
+        task = replace(task, warnings=(*task.warnings, *idle))
     return Ran(task, result, solved, time.perf_counter() - clock)
+
+
+def _nothing_asked(book: Book, options: Parameters, asked: int, done: int) -> list[Problem]:
+    """Warn where a run that goes on was asked for no more generations than it has done."""
+    if asked > done or not done:
+        return []
+    cell = book.source.names.get("Generations")
+    where = "--generations" if options.generations is not None or cell is None else cell.where
+    hint = "no generation was added; give --generations a larger number to go on"
+    return [Problem(where, f"{asked:,} generations", f"more than the {done:,} done", hint)]
 
 
 def _gaps(state: State) -> list[Problem]:
