@@ -761,6 +761,27 @@ wrong_cells(
     ),
 )
 wrong_cells(
+    "gap_in_cups_and_another_total",
+    {"D7": None, "E7": None, "F7": None},
+    Problem(
+        f"{SHEET}!D7",
+        "an empty row, and a coordinate below it in row 8",
+        "a list of suction cups without gaps",
+    ),
+    Problem(f"{SHEET}!B16", "6", "5, the number of suction cups listed"),
+)
+wrong_cells(
+    "text_in_cups_and_another_total",
+    {"D7": "left", "B16": 9},
+    Problem(f"{SHEET}!D7", "the text 'left'", A_COORDINATE),
+    Problem(f"{SHEET}!B16", "9", SIX_CUPS),
+)
+wrong_cells(
+    "formulas_without_values_within_a_list",
+    {f"{column}7": Raw("><f>2*50</f>") for column in "DEF"},
+    Problem(f"{SHEET}!D7", NO_VALUE, A_COORDINATE),
+)
+wrong_cells(
     "two_cups_at_one_place",
     {"D8": 100, "E8": 60, "F8": 10},
     Problem(f"{SHEET}!D8", "the place of index 1 again", "suction cups at places of their own"),
@@ -865,6 +886,7 @@ wrong_cells(
     | {"N4": None},
     Problem(f"{SHEET}!B5", "-1", A_MASS),
     Problem(f"{SHEET}!B12", "the text 'five'", A_COUNT),
+    Problem(f"{SHEET}!B16", "7", SIX_CUPS),
     Problem(f"{SHEET}!D6", NOTHING, A_COORDINATE),
     Problem(f"{SHEET}!H8", "the text 'x'", A_COORDINATE),
     Problem(f"{SHEET}!A23", NOTHING, "the label 'Weight (g)' under 'Magnet data'"),

@@ -80,3 +80,11 @@ def test_our_goal_formula_is_no_typed_goal(formula: str, tmp_path: Path) -> None
         path = tmp_path / f"{number}.xlsx"
         ga_book(path, {"B12": Raw(f"><f>{formula}</f>{stored}")})
         assert read_book(path).parameters.goals == (None, 9000, 30, 700)
+
+
+def test_a_number_almost_0_is_told_the_least_one(tmp_path: Path) -> None:
+    """A mass above 0 that is too small is told how large it must be."""
+    path = tmp_path / "book.xlsx"
+    tiny_export(path, {"B5": 1e-300})
+    (problem,) = problems_of(path)
+    assert (problem.found, problem.hint) == ("1e-300", "type at least 1e-09")

@@ -292,7 +292,9 @@ class Source:
         """
         number = as_number(self.value(cell), limit)
         if isinstance(number, float):
-            if not (above + MIN_DISTANCE <= number and least <= number <= most):
+            if above < number < above + MIN_DISTANCE:
+                number = Fault(shown(number), f"type at least {shown(above + MIN_DISTANCE)}")
+            elif not (above < number and least <= number <= most):
                 number = Fault(shown(number), hint)
             elif whole and not number.is_integer():
                 number = Fault(f"the fraction {shown(number)}", "type a whole number")

@@ -197,8 +197,8 @@ def _kind(
     weight = None
     if weight_cell and not source.blank(weight_cell):
         weight = source.number(weight_cell, "a weight of 0 g or more, or nothing", least=0)
+    _check_total(source, labels, cells, start)
     if footprints is not None:
-        _check_total(source, labels, cells, start, len(footprints))
         _check_counts(source, labels, cells, count_min, count_max, len(footprints))
     diameter, model = _diameter(source, sheet, labels.diameter), _model(source, sheet, labels.model)
     if count_min is None or count_max is None or force is None or price is None:
@@ -256,15 +256,17 @@ def _model(source: Source, sheet: str, field: Field) -> str:
 
 
 def _check_total(
-    source: Source, labels: KindLabels, cells: dict[str, Area], start: Area | None, listed: int
+    source: Source, labels: KindLabels, cells: dict[str, Area], start: Area | None
 ) -> None:
     cell = cells.get(labels.field("Total"))
-    if cell is None or start is None or as_number(source.value(cell)) == listed:
+    if cell is None or start is None:
         return
-    behind = start.cell(listed, 0)
-    if source.formula(behind) is not None:
-        source.number(behind, A_COORDINATE)  # the list goes on, in formulas without values
-    else:
+    rows, below = _listed_rows(source.grid(start.sheet), start)
+    listed = len(rows) + len(below)
+    if as_number(source.value(cell)) in (len(rows), listed):  # a gap is told by itself
+        return
+    behind = start.cell(len(rows), 0)
+    if source.formula(behind) is None:
         source.number(
             cell,
             f"{listed}, the number of {labels.plural} listed",
@@ -272,6 +274,8 @@ def _check_total(
             most=listed,
             hint="correct the total or the list, or export the option space again",
         )
+    elif not below:
+        source.number(behind, A_COORDINATE)  # the list goes on, in formulas without values
 
 
 def _check_counts(
@@ -316,13 +320,16 @@ def _list_start(source: Source, sheet: str, labels: KindLabels) -> Area | None:
 
 def _footprints(source: Source, start: Area, labels: KindLabels) -> FloatArray | None:
     grid = source.grid(start.sheet)
-    rows = _filled_rows(grid, start)
-    length = next((n for n, row in enumerate(rows) if row != start.row + n), len(rows))
-    stray = next((row for row in rows[length:] if _has_number(grid, row, start.column)), None)
-    if stray is not None:
+    rows, below = _listed_rows(grid, start)
+    length = len(rows)
+    gap = start.cell(length, 0)
+    if below and source.formula(gap) is not None:
+        source.number(gap, A_COORDINATE)
+        return None
+    if below:
         source.complain(
-            start.cell(length, 0).where,
-            f"an empty row, and a coordinate below it in row {stray + 1:,}",
+            gap.where,
+            f"an empty row, and a coordinate below it in row {below[0] + 1:,}",
             f"a list of {labels.plural} without gaps",
             "delete the empty rows, or what stands below them",
         )
@@ -341,14 +348,17 @@ def _footprints(source: Source, start: Area, labels: KindLabels) -> FloatArray |
     return points
 
 
-def _filled_rows(grid: Grid, start: Area) -> list[int]:
-    """Rows from the first of a list on that hold anything in its three columns."""
+def _listed_rows(grid: Grid, start: Area) -> tuple[list[int], list[int]]:
+    """Rows of a list up to its first empty one, and those of the footprints below that."""
     columns = slice(start.column, start.column + 3)
-    return [
+    filled = [
         row
         for row, values in grid.rows.items()
         if row >= start.row and not all(is_blank(value) for value in values[columns])
     ]
+    length = next((n for n, row in enumerate(filled) if row != start.row + n), len(filled))
+    below = [row for row in filled[length:] if _has_number(grid, row, start.column)]
+    return filled[:length], below
 
 
 def _has_number(grid: Grid, row: int, column: int) -> bool:
