@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import os
+import subprocess
+import sys
 from collections import Counter
 from itertools import combinations, product
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,7 +16,6 @@ from hypothesis import strategies as st
 from spaces import any_rules, option_spaces, plate, some_rules
 
 from grasp_xl.chromosome import from_active
-from grasp_xl.compiled import CACHE_FOLDER
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Rules
 from grasp_xl.search.exact import ExactSettings, solve
@@ -23,7 +24,6 @@ from grasp_xl.search.genetic import search
 from grasp_xl.search.result import GeneticSettings
 from grasp_xl.search.stop import Generations
 from grasp_xl.search.symmetry import representative, symmetries
-from grasp_xl.search.warm import load_exact_search
 from grasp_xl.space import ElementKind, OptionSpace, Part, frozen
 
 
@@ -189,11 +189,11 @@ def test_tree_halves_every_box(points):
         assert along[: low[1] - first].max() <= along[low[1] - first :].min()
 
 
-def test_no_kernel_is_compiled_twice():
+def test_no_kernel_is_compiled_twice(tmp_path):
     """Neither constants nor layouts of arrays make a kernel of the exact search compile again."""
-    load_exact_search()
-    versions = Counter(
-        path.name.rsplit(".", 2)[0] for path in Path(CACHE_FOLDER).rglob("exact_*.nbc")
-    )
+    program = "from grasp_xl.search.warm import load_exact_search; load_exact_search()"
+    anew = {**os.environ, "XDG_CACHE_HOME": str(tmp_path)}
+    subprocess.run([sys.executable, "-c", program], check=True, env=anew)  # noqa: S603
+    versions = Counter(path.name.rsplit(".", 2)[0] for path in tmp_path.rglob("exact_*.nbc"))
     assert versions
     assert set(versions.values()) == {1}

@@ -102,7 +102,7 @@ def test_every_suggested_number_works_and_none_is_larger_than_needed(data):
         if force:
             assert force > each.force_n
             assert is_possible(with_kind(space, number, force_n=force), need, least)
-            weaker = each.force_n + 0.99 * (force - each.force_n)
+            weaker = force * (1 - 1.1e-3)  # forces are told in four digits
             assert not is_possible(with_kind(space, number, force_n=weaker), need, least)
     if changes.min_elements:
         assert is_possible(space, need, changes.min_elements)
