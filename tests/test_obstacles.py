@@ -153,7 +153,7 @@ def test_too_few_elements_are_named():
     """More elements asked for than Max. allows: the error says how many may be asked for."""
     with pytest.raises(InfeasibleError, match=r"11 elements: # Max\. allows 10") as told:
         any_feasible(plate(), Requirements(), 11)
-    assert told.value.hint.startswith("Ask for at least 10 elements")
+    assert told.value.hint.startswith("Lower the least number of elements to 10")
 
 
 def test_a_clearance_that_no_grasp_keeps_is_answered_with_one_that_works():

@@ -150,7 +150,7 @@ def test_run_says_how_far_the_genetic_search_was_from_the_optimum(
     assert "Proved optimum" in out
     assert re.search(
         r"Proved: no grasp has a divergence below 3\.09026 \(.* s\)\. "
-        r"The best of the genetic run is 0\.\d+, [\d.]+ % above it\.",
+        r"The best of the genetic run lies 0\.\d+, [\d.]+ % above it\.",
         out,
     )
     command = ["run", str(bracket), "--goals", "100,5500,30,900", "--criterion", "cost", "--force"]

@@ -256,7 +256,7 @@ def _compared(result: Result, solved: Solved) -> str:
     if best.value <= known.value + SLACK * abs(known.value):
         return "The genetic run found a grasp as good."
     above = f", {percent(best.value / known.value - 1)}" if known.value > 0 else ""
-    return f"The best of the genetic run is {best.value - known.value:,.6g}{above} above it."
+    return f"The best of the genetic run lies {best.value - known.value:,.6g}{above} above it."
 
 
 def solve(solved: Solved) -> None:

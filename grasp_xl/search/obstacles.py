@@ -73,7 +73,9 @@ class Changes:
         ways = [
             f"lower the FoS goal to {self.fos:g}" if self.fos else "",
             f"lower the clearance to {self.clearance_mm:g} mm" if self.clearance_mm else "",
-            f"ask for at least {self.min_elements} elements" if self.min_elements else "",
+            f"lower the least number of elements to {self.min_elements}"
+            if self.min_elements
+            else "",
             *(
                 f"raise # Max. of {kind.name} to {most}" if most else ""
                 for kind, most in zip(space.kinds, self.counts_max, strict=True)
