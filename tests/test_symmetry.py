@@ -13,6 +13,7 @@ from spaces import chromosomes, kind, option_spaces, plate, rectangle, some_rule
 
 from grasp_xl.chromosome import from_active
 from grasp_xl.grasp import evaluate
+from grasp_xl.search.exact_pool import Found, Pool
 from grasp_xl.search.symmetry import SIGNS, representative, symmetries
 from grasp_xl.space import OptionSpace, Part, frozen
 
@@ -135,3 +136,19 @@ def test_large_spaces_take_no_time():
     began = time.perf_counter()
     assert len(symmetries(space)) == 3
     assert time.perf_counter() - began < 0.25
+
+
+@given(data=st.data())
+def test_a_pool_has_the_best_of_all_classes(data, square):
+    """Whatever order grasps come in: what sorting all and dropping images would leave."""
+    indices = st.lists(st.integers(1, square.kinds[0].total), min_size=1, max_size=2, unique=True)
+    active = indices.map(lambda chosen: (tuple(sorted(chosen)), ()))
+    met = data.draw(st.lists(st.builds(Found, st.sampled_from([1.0, 1 + 1e-12, 2, 3]), active)))
+    size = data.draw(st.integers(1, 5))
+    pool, firsts = Pool(symmetries(square), size), {}
+    for found in met:
+        pool.take(found)
+    for found in sorted(met, key=lambda each: each.rank):
+        firsts.setdefault(representative(pool.symmetries, found.active), found)
+    ranks = [found.rank for found in firsts.values()]
+    assert [found.rank for found in pool.grasps] == ranks[:size]

@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, Self
+from typing import Literal, Self
 
 import numpy as np
 
@@ -34,13 +34,14 @@ from grasp_xl.search.exact_kernel import (
 )
 from grasp_xl.search.exact_leaf import ENTRIES
 from grasp_xl.search.exact_model import locate, weigh, weigh_goals
+from grasp_xl.search.exact_pool import Found, Pool
 from grasp_xl.search.exact_prices import (
     Room,
     make_room,
 )
 from grasp_xl.search.feasibility import lifting_counts
 from grasp_xl.search.floors import floors
-from grasp_xl.search.symmetry import representative, symmetries
+from grasp_xl.search.symmetry import symmetries
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
 
 Status = Literal["optimal", "feasible", "infeasible", "unknown"]
@@ -155,13 +156,6 @@ def solve(
     return _Search(space, rules, settings or ExactSettings(), known).run(stop, on_progress)
 
 
-class Found(NamedTuple):
-    """A grasp met in the search: its value, and its sorted active indices a kind."""
-
-    value: float
-    active: tuple[tuple[int, ...], ...]
-
-
 class _Frontier:
     """Open nodes, best first."""
 
@@ -227,8 +221,7 @@ class _Search:
     ) -> None:
         self.space, self.rules, self.settings = space, rules, settings
         self.began = time.perf_counter()
-        self.pool: list[Found] = []
-        self.symmetries = symmetries(space) if settings.top > 1 else ()
+        self.pool = Pool(symmetries(space) if settings.top > 1 else (), settings.top)
         self.expanded = self.batches = 0
         self.counts = [
             counts
@@ -254,31 +247,24 @@ class _Search:
         wanted = grasp.meets_all_goals if self.settings.meet_goals else grasp.feasible
         if wanted and len(grasp.points_mm) >= self.settings.min_elements:
             active = tuple(tuple(sorted(indices)) for indices in chromosome.active)
-            self._take(Found(grasp.value, active))
+            self.pool.take(Found(grasp.value, active))
 
     # --- the pool of best grasps ---
 
     @property
+    def best(self) -> float | None:
+        """Value of the best grasp so far."""
+        return self.pool.grasps[0].value if self.pool.grasps else None
+
+    @property
     def upper(self) -> float:
         """Value that a grasp must beat to enter the pool."""
-        full = len(self.pool) >= self.settings.top
-        return self.pool[-1].value if full else math.inf
+        return self.pool.grasps[-1].value if self.pool.is_full else math.inf
 
     @property
     def slack(self) -> float:
         """Nodes whose bound is within this of the upper value are not expanded."""
         return PROOF * abs(self.upper) if self.upper < math.inf else 0.0
-
-    def _take(self, found: Found) -> None:
-        """Enter a grasp: values within 1e-9 are equal, and then the smaller indices come first.
-
-        Of grasps that are images of one another only the first is kept.
-        """
-        rising = sorted([*self.pool, found], key=lambda item: (_rounded(item.value), item.active))
-        firsts: dict[tuple[tuple[int, ...], ...], Found] = {}
-        for item in rising:
-            firsts.setdefault(representative(self.symmetries, item.active), item)
-        self.pool = list(firsts.values())[: self.settings.top]
 
     # --- the search ---
 
@@ -303,7 +289,7 @@ class _Search:
                 self.expanded += taken
                 self.batches += 1
                 if on_progress:
-                    on_progress(self.bound, self.pool[0].value if self.pool else None)
+                    on_progress(self.bound, self.best)
         return self._proof()
 
     def _start(self) -> None:
@@ -331,12 +317,12 @@ class _Search:
     def _take_all(self, values: FloatArray, genes: IntArray, elements: int, upper: float) -> None:
         for value, rows in zip(values.tolist(), genes, strict=True):
             if value < upper:
-                self._take(Found(value, self._active(rows[:elements])))
+                self.pool.take(Found(value, self._active(rows[:elements])))
 
     @property
     def bound(self) -> float:
         """Value below which there is no grasp, as far as proved."""
-        best = self.pool[0].value if self.pool else math.inf
+        best = math.inf if self.best is None else self.best
         return min(best, self.few.bound, self.many.bound)
 
     def _out_of_time(self) -> bool:
@@ -345,21 +331,21 @@ class _Search:
         return time.perf_counter() - self.began >= self.settings.time_limit_s
 
     def _close_enough(self) -> bool:
-        if self.settings.gap <= 0 or len(self.pool) < self.settings.top:
+        if self.settings.gap <= 0 or not self.pool.is_full:
             return False
-        last = self.pool[-1].value
+        last = self.pool.grasps[-1].value
         return last - self.bound <= self.settings.gap * abs(last)
 
     def _proof(self) -> Proof:
         done = not self.few and not self.many
         status: Status
-        if self.pool:
+        if self.pool.grasps:
             status = "optimal" if done else "feasible"
         else:
             status = "infeasible" if done else "unknown"
         designs = tuple(
             evaluate(self.space, self.rules, from_active(self.space, found.active))
-            for found in self.pool
+            for found in self.pool.grasps
         )
         bound = designs[0].value if done and designs else self.bound
         seconds = time.perf_counter() - self.began
@@ -372,18 +358,13 @@ class _Search:
         return tuple(tuple(sorted(indices)) for indices in active)
 
 
-def _rounded(value: float) -> float:
-    """Round to nine significant digits, so that equal values sort by their grasps."""
-    return float(f"{value:.9g}")
-
-
 class _Workers:
     """Threads that expand a batch of nodes; what comes of each node depends on the node alone."""
 
     def __init__(self, search: _Search) -> None:
         self._search = search
         places, elements = len(search.locations.xyz), search.elements
-        top = search.settings.top * (1 + len(search.symmetries))
+        top = search.settings.top * (1 + len(search.pool.symmetries))
         cores = os.cpu_count() or 1
         self.halt = np.zeros(1, dtype=np.int64)
         self.rooms = [make_room(places, elements, ENTRIES) for _ in range(cores)]
