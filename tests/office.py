@@ -113,6 +113,10 @@ class Office:
         """Copy cells and paste them whole elsewhere; :meth:`undo` does not put this back."""
         self._do("paste", source=_sent(source), target=_sent(target))
 
+    def remove(self, sheet: str) -> None:
+        """Delete a sheet; :meth:`undo` does not put it back."""
+        self._do("remove", sheet=sheet)
+
     def undo(self) -> None:
         """Put back what was typed over since the workbook was opened."""
         self._do("undo")

@@ -166,6 +166,10 @@ class Session:
         area, first = self._area(source), self._area(target).getCellByPosition(0, 0)
         first.Spreadsheet.copyRange(first.CellAddress, area.RangeAddress)
 
+    def remove(self, sheet):
+        """Delete a sheet."""
+        self._book.Sheets.removeByName(sheet)
+
     def undo(self):
         """Put back what was typed over since the workbook was opened.
 

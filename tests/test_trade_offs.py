@@ -142,6 +142,24 @@ def test_a_run_keeps_list_and_pick(
     assert read_book(book).picks.trade_off == read_book(book).trade_offs.designs[1].chromosome
 
 
+@pytest.mark.parametrize("by", ["LibreOffice", "openpyxl"])
+def test_a_workbook_whose_sheet_was_deleted_runs_on(
+    book: Path, office: Office, tmp_path: Path, by: str
+) -> None:
+    """Its What-if card showed a design of the list; nobody typed those genes."""
+    if by == "LibreOffice":
+        office.open(book)
+        office.recalculate()
+        office.enter({"TradeOffPick": 2.0})
+        office.remove(TRADE_OFFS)
+        book = office.save(tmp_path / "without.xlsx")
+    else:
+        edit(book, lambda opened: opened.remove(opened[TRADE_OFFS]))
+    assert read_book(book).what_if is None
+    assert run_in_place(book, "--force") == 0
+    assert TRADE_OFFS not in openpyxl.load_workbook(book).sheetnames
+
+
 def test_a_list_of_other_inputs_is_left_out_with_a_warning(
     book: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

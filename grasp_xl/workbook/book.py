@@ -18,7 +18,7 @@ from grasp_xl.workbook import layout, run_log
 from grasp_xl.workbook.carrying import SetAside, carried
 from grasp_xl.workbook.cells import Source, cells_of
 from grasp_xl.workbook.inputs import genes_text
-from grasp_xl.workbook.layout import Field
+from grasp_xl.workbook.layout import Area, Field
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK, Picker, Picks
 from grasp_xl.workbook.reading import open_source, read_option_space
 from grasp_xl.workbook.reading_ga import (
@@ -215,4 +215,14 @@ def _is_typed(source: Source, block: Field) -> bool:
     """Tell whether any gene of a block is somebody's, and not a formula of ours."""
     area = source.names.get(block.name)
     cells = [cell for row in cells_of(area) for cell in row] if area else []
-    return any(cell not in source.worked_out and not source.blank(cell) for cell in cells)
+    return any(
+        not (cell in source.worked_out or source.blank(cell) or _has_lost_its_sheet(source, cell))
+        for cell in cells
+    )
+
+
+def _has_lost_its_sheet(source: Source, cell: Area) -> bool:
+    """Tell whether a cell's formula shows a design of a list whose sheet was deleted."""
+    formula = source.formula(cell) or ""
+    gone = layout.TRADE_OFFS not in source.sheets and layout.TRADE_OFFS in formula
+    return gone or "#REF!" in formula
