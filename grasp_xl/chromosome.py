@@ -103,9 +103,7 @@ def index_faults(space: OptionSpace, active: Sequence[Sequence[int]]) -> list[tu
 
 def is_usable(chromosome: Chromosome, space: OptionSpace) -> bool:
     """Tell whether every count and index is one that the option space has."""
-    return any(chromosome.counts) and all(
-        kind.count_min <= row[0] <= kind.most
-        and all(min(1, kind.total) <= gene <= kind.total for gene in row[1:])
-        and len(set(active)) == len(active)
+    return not index_faults(space, chromosome.active) and all(
+        row[0] == len(active) and all(min(1, kind.total) <= gene <= kind.total for gene in row[1:])
         for row, active, kind in zip(chromosome.genes, chromosome.active, space.kinds, strict=True)
     )

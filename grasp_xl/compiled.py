@@ -70,8 +70,8 @@ def _compiled(function: Callable[P, R], **options: bool) -> Callable[P, R]:
     finally:
         settings.CACHE_DIR = usual
     # A constant is a number like any other: numba would compile the kernel anew for each.
-    usual = kernel.get_call_template
-    kernel.get_call_template = lambda args, kws: usual(tuple(map(unliteral, args)), kws)
+    find = kernel.get_call_template
+    kernel.get_call_template = lambda args, kws: find(tuple(map(unliteral, args)), kws)
     return cast("Callable[P, R]", kernel)
 
 

@@ -133,14 +133,14 @@ def settle(
     known = said.over(DEFAULTS)
     requirements = settle_requirements(space, known)
     unscaled = Rules(Goals(Terms(1.0, 1.0, 1.0, 1.0)), requirements)
-    chromosome = user_chromosome
-    if not chromosome and assigned and _is_feasible(space, unscaled, assigned):
-        chromosome = assigned
-    chromosome = chromosome or assigned_benchmark(space, requirements)
+    kept = user_chromosome
+    if not kept and assigned and _is_feasible(space, unscaled, assigned):
+        kept = assigned
+    chromosome = kept or assigned_benchmark(space, requirements)
     benchmark = evaluate(space, unscaled, chromosome)
     goals, warnings = settle_goals(benchmark.terms, known.goals)
     rules = Rules(goals, requirements, _known(known.criterion))
-    if assigned and chromosome not in (user_chromosome, assigned):
+    if assigned and not kept:
         warnings.append(
             Problem(
                 "User-Defined Chromosome",

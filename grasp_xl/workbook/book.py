@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import io
-import json
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-
-import numpy as np
 
 from grasp_xl.chromosome import Chromosome, is_usable
 from grasp_xl.errors import InputError, Problem
@@ -17,7 +14,7 @@ from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout, run_log
 from grasp_xl.workbook.carrying import SetAside, carried
 from grasp_xl.workbook.cells import Source, cells_of
-from grasp_xl.workbook.inputs import genes_text
+from grasp_xl.workbook.inputs import genes_of_text, genes_text
 from grasp_xl.workbook.layout import Area, Field
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK, Picker, Picks
 from grasp_xl.workbook.reading import open_source, read_option_space
@@ -199,7 +196,7 @@ def _assigned(source: Source, space: OptionSpace) -> Chromosome | None:
 def _set_aside(source: Source, block: Field, name: str) -> Chromosome | None:
     """Return genes of the designer that were set aside, and warn of them; else None."""
     with suppress(*UNREADABLE):
-        genes = np.array(json.loads(str(source.value(source.names[name]))), dtype=np.int64)
+        genes = genes_of_text(source.value(source.names[name]))
         if genes.shape[:-1] == (len(layout.KINDS),):
             source.warn(
                 source.names[name].where,

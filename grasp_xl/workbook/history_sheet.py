@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from grasp_xl.search.result import Result, Rows, gene_columns
-from grasp_xl.workbook.layout import HISTORY, HISTORY_ROW, Area
+from grasp_xl.workbook.layout import HISTORY, HISTORY_ROW, KINDS, Area
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.proved import Proved, charted
 from grasp_xl.workbook.result_title import write_result_title
@@ -98,10 +98,7 @@ def write_history(
     pen.widths(0, GENERATION_WIDTH, *CRITERIA_WIDTHS, *[GENE_WIDTH] * len(genes))
     listed = Area(HISTORY, 0, 0, HISTORY_ROW + 1 + rows, len(labels))
     charts = Area(HISTORY, HISTORY_ROW + 1, len(labels) + 1, 3 * CHART_ROWS, CHART_COLUMNS)
-    slots = result.space.gene_slots
-    pages = pen.list_pages(
-        listed, HISTORY_ROW, map(labels.index, gene_labels(result.space)[:: 1 + slots])
-    )
+    pages = pen.list_pages(listed, HISTORY_ROW, [labels.index(each.row_label) for each in KINDS])
     pen.print_pages(*pages, pictures=[charts])
 
 

@@ -12,9 +12,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import astuple
 
+import numpy as np
+
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.rules import TERMS
-from grasp_xl.space import FloatArray, OptionSpace
+from grasp_xl.space import FloatArray, IntArray, OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import shown
@@ -119,6 +121,17 @@ def changed_inputs(
 def genes_text(chromosome: Chromosome | None) -> str:
     """Return genes as one line of text, empty for none."""
     return json.dumps(chromosome.genes.tolist()) if chromosome else ""
+
+
+def genes_of_text(text: object) -> IntArray:
+    """Return the genes that :func:`genes_text` wrote, unchecked.
+
+    Raises
+    ------
+    ValueError
+        If the text is empty, or no such text.
+    """
+    return np.array(json.loads(str(text)))
 
 
 def _alike(value: CellValue, logged: object) -> bool:

@@ -197,7 +197,7 @@ def _kind(
     weight = None
     if weight_cell and not source.blank(weight_cell):
         weight = source.number(weight_cell, "a weight of 0 g or more, or nothing", least=0)
-    _check_total(source, labels, cells, start)
+    _check_total(source, labels, cells, start, footprints)
     if footprints is not None:
         _check_counts(source, labels, cells, count_min, count_max, len(footprints))
     diameter, model = _diameter(source, sheet, labels.diameter), _model(source, sheet, labels.model)
@@ -256,14 +256,21 @@ def _model(source: Source, sheet: str, field: Field) -> str:
 
 
 def _check_total(
-    source: Source, labels: KindLabels, cells: dict[str, Area], start: Area | None
+    source: Source,
+    labels: KindLabels,
+    cells: dict[str, Area],
+    start: Area | None,
+    footprints: FloatArray | None,
 ) -> None:
     cell = cells.get(labels.field("Total"))
     if cell is None or start is None:
         return
+    total = as_number(source.value(cell))
+    if footprints is not None and total == len(footprints):  # no second look at long lists
+        return
     rows, below = _listed_rows(source.grid(start.sheet), start)
     listed = len(rows) + len(below)
-    if as_number(source.value(cell)) in (len(rows), listed):  # a gap is told by itself
+    if total in (len(rows), listed):  # a gap is told by itself
         return
     behind = start.cell(len(rows), 0)
     if source.formula(behind) is None:

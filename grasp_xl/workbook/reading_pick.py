@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from contextlib import suppress
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from grasp_xl.chromosome import BLANK_GENE, Chromosome
 from grasp_xl.workbook import layout, run_log
 from grasp_xl.workbook.cells import UNCALCULATED, Source, cells_of, is_blank, same_formula
+from grasp_xl.workbook.inputs import genes_of_text
 from grasp_xl.workbook.layout import TABLE_ROW, Area
 from grasp_xl.workbook.picker import (
     DESIGN_PICK,
@@ -41,7 +41,7 @@ def read_picks(source: Source) -> Picks:
     with suppress(*UNREADABLE):
         listed = whole(logged_values(source)[DESIGNS_LISTED])
         written = source.value(source.names[run_log.WHAT_IF_WRITTEN])
-        best = Chromosome(np.array(json.loads(str(written))))
+        best = Chromosome(genes_of_text(written))
         slots = best.genes.shape[1] - 1
         picked = _picked(source, DESIGN_PICK, listed, best)
         picks = Picks(picked)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -22,7 +21,7 @@ from grasp_xl.workbook import layout, run_log
 from grasp_xl.workbook.calc_block import CalcBlock
 from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank
 from grasp_xl.workbook.history_sheet import MAX_HISTORY
-from grasp_xl.workbook.inputs import changed_inputs
+from grasp_xl.workbook.inputs import changed_inputs, genes_of_text
 from grasp_xl.workbook.layout import Area, Field
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.reading_ga import find_block
@@ -143,7 +142,7 @@ def shown_proof(source: Source, task: Task) -> Proved | None:
         if text:
             grasp = task.benchmark
             with suppress(*UNREADABLE):
-                genes = _checked(task.space, np.array(json.loads(str(text))))
+                genes = _checked(task.space, genes_of_text(text))
                 grasp = evaluate(task.space, task.rules, genes)
         status = {str(status): status for status in get_args(Status)}[
             str(logged(run_log.PROOF_STATUS))
@@ -231,7 +230,7 @@ def _state(source: Source, space: OptionSpace, logged: dict[str, Value]) -> Stat
         load_stream(random_state)
     best_text = source.value(cell(run_log.BEST_GRASP))
     with _reading(cell(run_log.BEST_GRASP).where):
-        best = _checked(space, np.array(json.loads(str(best_text)))) if best_text else None
+        best = _checked(space, genes_of_text(best_text)) if best_text else None
     listed = logged[CHANGES_LISTED]
     changes = _trace(source, space, layout.HISTORY, layout.HISTORY_ROW, listed)
     if whole(listed) >= MAX_HISTORY:
