@@ -20,6 +20,7 @@ from grasp_xl.rules import (
 )
 from grasp_xl.search.benchmark import assigned_benchmark
 from grasp_xl.search.result import GeneticSettings
+from grasp_xl.search.stop import Stop, never
 from grasp_xl.space import OptionSpace
 
 T = TypeVar("T")
@@ -114,6 +115,7 @@ def settle(
     said: Parameters,
     user_chromosome: Chromosome | None,
     assigned: Chromosome | None = None,
+    stop: Stop = never,
 ) -> Task:
     """Fill every gap: defaults, the clearance, the benchmark grasp, the goals.
 
@@ -124,6 +126,8 @@ def settle(
     assigned : Chromosome, optional
         What the program assigned before in its place: it stays as long as it is feasible, so that
         goals taken from it stay what the designer sees.
+    stop : callable
+        True ends the search for a benchmark.
 
     Raises
     ------
@@ -136,7 +140,7 @@ def settle(
     kept = user_chromosome
     if not kept and assigned and _is_feasible(space, unscaled, assigned):
         kept = assigned
-    chromosome = kept or assigned_benchmark(space, requirements)
+    chromosome = kept or assigned_benchmark(space, requirements, stop)
     benchmark = evaluate(space, unscaled, chromosome)
     goals, warnings = settle_goals(benchmark.terms, known.goals)
     rules = Rules(goals, requirements, _known(known.criterion))

@@ -7,11 +7,13 @@ import csv
 import io
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +26,10 @@ from python_calamine import CalamineWorkbook
 from grasp_xl import __main__, __version__
 from grasp_xl.cli import options, show
 from grasp_xl.cli.program import app, main
+from grasp_xl.commands.solve import solve_file
 from grasp_xl.search import stop
+from grasp_xl.search.exact import ExactSettings
+from grasp_xl.task import Parameters
 from grasp_xl.workbook import cells, reading_ga
 
 SAMPLES = Path(__file__).parents[1] / "workbooks"
@@ -38,7 +43,10 @@ RUN_KEYS = {
     *("best", "proved", "benchmark", "goals", "seconds", "generations", "evaluations", "seed"),
     *("stop_reason", "output"),
 }
-SOLVE_KEYS = {"status", "bound", "gap", "designs", "floors", "goals", "seconds", "output"}
+SOLVE_KEYS = {
+    *("status", "bound", "gap", "designs", "floors", "floors_attained", "goals", "seconds"),
+    "output",
+}
 CHECK_KEYS = {
     *("ok", "problems", "warnings", "cups", "magnets", "search_space", "weight_n", "max_fos"),
     "floors",
@@ -644,6 +652,10 @@ def test_solve_shows_designs_goals_floors_and_what_is_proved(gx: Any, bracket: P
     [
         ("--criterion cost", "no grasp has a cost below 90 $"),
         ("--min-elements 5", "no grasp of 5 or more elements has a divergence below"),
+        (
+            "--min-elements 3 --goals 200,9000,90,2000 --meet-goals",
+            "3 or more elements that meets all",
+        ),
         ("--goals 200,9000,90,2000 --meet-goals", "no grasp that meets all goals has a divergence"),
         ("--time-limit 0", "stopped at the time limit"),
         ("--gap 100", "stopped at the gap asked for"),
@@ -655,6 +667,28 @@ def test_solve_says_in_a_sentence_what_is_proved(
     told = gx("solve", bracket, *words.split())
     assert told.code == 0
     assert sentence in told.out
+
+
+def test_floors_that_are_bounds_only_are_marked(gx: Any, bracket: Path) -> None:
+    """With all its time solve proves the four; without any they are shown as bounds."""
+    told = gx("solve", bracket)
+    (floors,) = [line for line in told.out.splitlines() if line.strip().startswith("floor")]
+    assert ">=" not in floors
+    assert all(gx("solve", bracket, "--json").json["floors_attained"].values())
+    told = gx("solve", bracket, "--time-limit", 0)
+    (floors,) = [line for line in told.out.splitlines() if line.strip().startswith("floor")]
+    assert floors.count(">=") == 4
+    told = gx("solve", bracket, "--time-limit", 0, "--json").json
+    assert not any(told["floors_attained"].values())
+
+
+def test_the_best_of_several_is_proved_before_the_others(bracket: Path) -> None:
+    """Where the order of the others is open when time is up, the first is still said to be it."""
+    solved = solve_file(bracket, Parameters(), ExactSettings(top=2))
+    stopped = replace(solved, proof=replace(solved.proof, status="feasible"))
+    told = show.proof_sentence(stopped)
+    assert re.match(r"Proved: no grasp has a divergence below [\d.]+, so the first is the", told)
+    assert stopped.shown.title == "Proved optimum"
 
 
 def test_solve_never_finds_worse_than_run(gx: Any, export: Path) -> None:

@@ -14,7 +14,7 @@ from grasp_xl.chromosome import from_active
 from grasp_xl.errors import InfeasibleError
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rounding import rounded_down, rounded_up
-from grasp_xl.rules import SLACK, Requirements, Rules
+from grasp_xl.rules import SLACK, TERMS, Requirements, Rules
 from grasp_xl.search.exact import ExactSettings, solve
 from grasp_xl.search.floors import floors
 from grasp_xl.search.obstacles import any_feasible, least_counts, smallest_changes
@@ -128,6 +128,41 @@ def test_placed_elements_keep_their_distance(data):
         assert evaluate(wide, rules, from_active(wide, placing.active)).is_clear
 
 
+def crowded_cups() -> OptionSpace:
+    """49 cups on 60 x 60 mm, of which four keep 46 mm, and many magnets with room for all."""
+    cups = [(10.0 * x, 10.0 * y, 0.0) for x in range(7) for y in range(7)]
+    magnets = [(100.0 + 30.0 * x, 30.0 * y, 0.0) for x in range(20) for y in range(20)]
+    kinds = (kind("suction", cups), kind("magnets", magnets, force_n=130.0, price=30.0))
+    return replace(plate(), kinds=kinds)
+
+
+def test_one_kind_without_room_is_proof_at_once():
+    """Five cups find no room, so five cups with five of 400 magnets do not."""
+    placing = place(crowded_cups(), (5, 5), 46.0, 0.5)
+    assert (placing.active, placing.proved) == (None, True)
+
+
+def test_a_search_for_any_grasp_that_is_told_to_stop_says_that_nothing_is_proved():
+    """Neither does it look for changes that would help."""
+    need = Requirements(fos=11.4, clearance_mm=42.0)
+    assert any_feasible(crowded_cups(), need)
+    with pytest.raises(InfeasibleError, match=r"No grasp that keeps 42 mm .* was found in") as told:
+        any_feasible(crowded_cups(), need, stop=lambda: True)
+    assert not told.value.proved
+    assert (
+        told.value.hint
+        == "No single number that helps was found: change several, or add footprints"
+    )
+
+
+def test_a_goal_that_the_clearance_forbids_says_so():
+    """All ten would reach FoS 11.44, but only four cups keep the clearance: 926 N against 86.9 N."""
+    hint = "Lower the FoS goal to 10.65 (no places were found for more elements)"
+    with pytest.raises(InfeasibleError) as told:
+        any_feasible(crowded_cups(), Requirements(fos=12.0, clearance_mm=46.0))
+    assert told.value.hint.startswith(hint)
+
+
 def test_least_counts_lift_and_can_spare_nothing():
     """Of the counts that meet FoS 3 on the plate, only those without a spare element are listed."""
     assert least_counts(plate(), Requirements()) == [(1, 2), (2, 1)]
@@ -190,17 +225,20 @@ def test_proven_floors_are_the_least_values_of_all_grasps(data):
     if not feasible:
         return
     least = [min(column) for column in zip(*(grasp.terms for grasp in feasible), strict=True)]
-    proven = proven_floors(space, rules, seconds=60.0)
+    proven, attained = proven_floors(space, rules, seconds=60.0)
+    assert attained == set(TERMS)
     assert list(proven) == pytest.approx(least, rel=1e-8, abs=1e-8)
     for fast, exact in zip(floors(space, rules.requirements), proven, strict=True):
         assert fast <= exact * (1 + SLACK) + 1e-8
 
 
 def test_floors_that_are_not_proven_in_time_are_the_fast_ones_or_better():
-    """With no time at all each floor is still a true bound."""
+    """With no time at all each floor is still a true bound, and none is said to be attained."""
     space, rules = plate(), some_rules()
-    fast, none = floors(space, rules.requirements), proven_floors(space, rules, seconds=0.0)
-    proven = proven_floors(space, rules, seconds=0.5)
+    fast = floors(space, rules.requirements)
+    none, attained = proven_floors(space, rules, seconds=0.0)
+    assert not attained
+    proven = proven_floors(space, rules, seconds=0.5).least
     for low, middle, high in zip(fast, none, proven, strict=True):
         assert low <= middle <= high * (1 + SLACK)
 
@@ -208,7 +246,8 @@ def test_floors_that_are_not_proven_in_time_are_the_fast_ones_or_better():
 def test_the_thesis_goal_of_p1_is_below_its_floor():
     """The benchmark moment 6099.57 N-mm is named against the floor of 7434.5 N-mm, with the arm."""
     space, rules = p1_space(), some_rules((100.0, 6099.57, 27.97, 1111.43))
-    for least in (floors(space, rules.requirements), proven_floors(space, rules, seconds=5.0)):
+    proven = proven_floors(space, rules, seconds=5.0).least
+    for least in (floors(space, rules.requirements), proven):
         assert least.moment == pytest.approx(7434.5, abs=0.5)
         (warning,) = floor_warnings(rules, least)
         assert warning.where == "moment goal"
@@ -222,7 +261,7 @@ def test_the_thesis_goal_of_p1_is_below_its_floor():
 def test_goals_that_no_grasp_meets_are_explained():
     """The goal below its floor is named, and raised as the hint says it is met by a grasp."""
     space, rules = p1_space(), some_rules((150.0, 6099.57, 60.0, 1111.43))
-    least = proven_floors(space, rules, seconds=5.0)
+    least = proven_floors(space, rules, seconds=5.0).least
     error = why_none_meets_all(space, rules, least, 1)
     assert error.message.startswith(
         "No grasp meets all goals: the moment goal of 6,099.57 N-mm is below its floor of 7,434."
@@ -237,7 +276,7 @@ def test_goals_that_no_grasp_meets_are_explained():
 def test_goals_that_only_together_are_too_low_are_explained():
     """No goal is below its floor; each single change that helps is named."""
     space, rules = p1_space(), some_rules()
-    least = proven_floors(space, rules, seconds=5.0)
+    least = proven_floors(space, rules, seconds=5.0).least
     tight = some_rules(tuple(1.0001 * value for value in least))
     error = why_none_meets_all(space, tight, least, 1)
     assert "no goal is below its floor" in error.message

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from grasp_xl.commands.run import Ran
     from grasp_xl.commands.solve import Solved
     from grasp_xl.grasp import Grasp
+    from grasp_xl.search.proven_floors import ProvenFloors
     from grasp_xl.task import Task
 
 Json = dict[str, Any]
@@ -82,12 +83,19 @@ def solve_json(solved: Solved) -> Json:
         "bound": proof.bound if math.isfinite(proof.bound) else None,
         "gap": proof.gap,
         "designs": [grasp_json(grasp, rules) for grasp in proof.designs],
-        "floors": solved.floors._asdict() if solved.floors else None,
+        **_floors_json(solved.floors),
         "goals": goals_json(rules),
         "seconds": solved.seconds,
         "output": str(solved.output) if solved.output else None,
         **(error_json(solved.obstacle) if solved.obstacle else {}),
     }
+
+
+def _floors_json(floors: ProvenFloors | None) -> Json:
+    if floors is None:
+        return {"floors": None, "floors_attained": None}
+    attained = {term: term in floors.attained for term in TERMS}
+    return {"floors": floors.least._asdict(), "floors_attained": attained}
 
 
 def front_json(found: FoundFront, output: str | None) -> Json:
@@ -117,7 +125,8 @@ def failed_solve_json(error: InfeasibleError) -> Json:
     return {
         "status": "infeasible" if error.proved else "unknown",
         "designs": [],
-        **dict.fromkeys(("bound", "gap", "floors", "goals", "seconds", "output")),
+        **dict.fromkeys(("bound", "gap", "goals", "seconds", "output")),
+        **_floors_json(None),
         **error_json(error),
     }
 

@@ -109,7 +109,7 @@ def run(
 
         def stop(task: Task) -> list[StopRule]:
             bar.begin(task.generations, time_limit)
-            return [interrupt, *_stop_rules(task, stall, target, time_limit)]
+            return _stop_rules(task, stall, target, time_limit)
 
         def proved(task: Task, result: Result) -> Solved | None:
             bar.end()
@@ -128,6 +128,7 @@ def run(
             Output(path, in_place, force, history),
             grasp=(cups, magnets),
             stop=stop,
+            interrupt=interrupt,
             go_on=go_on,
             on_progress=bar,
             prove=proved,

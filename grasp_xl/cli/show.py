@@ -18,7 +18,7 @@ from rich.table import Table
 from grasp_xl.compiled import is_compiled
 from grasp_xl.errors import Problem
 from grasp_xl.grasp import Grasp
-from grasp_xl.rounding import percent
+from grasp_xl.rounding import percent, rounded_down
 from grasp_xl.rules import DIVERGENCE, SLACK, TERMS, UNITS, Rules
 from grasp_xl.search.stop import Progress
 
@@ -27,10 +27,12 @@ if TYPE_CHECKING:
     from grasp_xl.commands.front import FoundFront
     from grasp_xl.commands.run import Ran
     from grasp_xl.commands.solve import Solved
+    from grasp_xl.search.proven_floors import ProvenFloors
     from grasp_xl.search.result import Result
     from grasp_xl.task import Task
 
 REFRESH_SECONDS = 0.2
+FOS_DIGITS = 4
 
 
 class Terminal(Console):
@@ -269,7 +271,7 @@ def solve(solved: Solved) -> None:
         table.add_row(str(rank), *_shown(grasp), f"{grasp.value:,.6g}")
     table.add_row("goal", "", "", *_shown_goals(rules), "")
     if solved.floors:
-        table.add_row("floor", "", "", *(f"{floor:,.6g}" for floor in solved.floors), "")
+        table.add_row("floor", "", "", *_shown_floors(solved.floors), "")
     _out.print(table)
     line(proof_sentence(solved))
     if solved.output:
@@ -312,13 +314,21 @@ def _shown_goals(rules: Rules) -> list[str]:
     ]
 
 
+def _shown_floors(floors: ProvenFloors) -> list[str]:
+    """Return the floors; one that no known grasp attains is marked, as the truth may be higher."""
+    return [
+        f"{'' if term in floors.attained else '>= '}{floor:,.6g}"
+        for term, floor in zip(TERMS, floors.least, strict=True)
+    ]
+
+
 def proof_sentence(solved: Solved) -> str:
     """Say in a sentence what an exact search proved, and why it stopped if it did."""
     proof, settings = solved.proof, solved.settings
     criterion = solved.task.rules.criterion
     unit = f" {UNITS[criterion.single]}" if criterion.single else ""
-    whose = " that meets all goals" if settings.meet_goals else ""
-    whose += f" of {settings.min_elements} or more elements" if settings.min_elements > 1 else ""
+    whose = f" of {settings.min_elements} or more elements" if settings.min_elements > 1 else ""
+    whose += " that meets all goals" if settings.meet_goals else ""
     none = f"no grasp{whose} has a {criterion.name} below {proof.bound:,.6g}{unit}"
     if proof.status == "optimal":
         these = len(proof.designs)
@@ -330,6 +340,10 @@ def proof_sentence(solved: Solved) -> str:
     if proof.gap is None:
         return f"No grasp found yet; {none}; {ended}."
     best = proof.designs[0].value
+    if proof.is_best_proved:
+        return (
+            f"Proved: {none}, so the first is the best of all; that of the others is not: {ended}."
+        )
     return f"Best found {best:,.6g}{unit}; {none} (gap {percent(proof.gap)}); {ended}."
 
 
@@ -343,7 +357,7 @@ def check(checked: Checked) -> None:
         )
     line(f"part: {space.part.mass_g:,.6g} g, {space.part.weight_n:,.6g} N")
     line(f"different grasps: {Decimal(checked.search_space):.4e}")
-    line(f"FoS of the most elements: {checked.max_fos:.4g}")
+    line(f"FoS of the most elements: {rounded_down(checked.max_fos, FOS_DIGITS):g}")
     for term, floor in checked.floors._asdict().items() if checked.floors else ():
         line(f"no {term} below {floor:,.6g} {UNITS[term]}")
     if not checked.obstacle:

@@ -1,7 +1,6 @@
 """How ``front`` finds the trade-offs of a file, and writes them into a workbook."""
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -86,8 +85,8 @@ def front_file(
         check_target(output.path, path, in_place=False, force=output.force)
         refuse_edited(output.path, force=output.force)
     book = read_book(path)
-    task = prepare(book, options)
-    refuse_infeasible(task)
+    task = prepare(book, options, stop=interrupt.is_asked)
+    refuse_infeasible(task, interrupt.is_asked)
     load_exact_search()
     front = find_front(
         task.space,
@@ -96,7 +95,7 @@ def front_file(
         task.benchmark.chromosome,
         grid=grid,
         seconds=time_limit_s,
-        stop=_asks(interrupt),
+        stop=interrupt.is_asked,
         on_progress=on_progress,
     )
     found = FoundFront(task, front, 0.0, time_limit_s, interrupt.asked)
@@ -116,7 +115,3 @@ def listed(found: FoundFront) -> TradeOffs:
         for number, design in enumerate(found.front.designs, 1)
     )
     return TradeOffs(tuple(designs), found.told)
-
-
-def _asks(interrupt: Interrupt) -> Callable[[], bool]:
-    return lambda: interrupt.asked

@@ -7,6 +7,7 @@ from grasp_xl.chromosome import Chromosome, from_active, index_faults
 from grasp_xl.errors import UsageError
 from grasp_xl.rules import Terms
 from grasp_xl.search.obstacles import any_feasible
+from grasp_xl.search.stop import Stop, never
 from grasp_xl.search.unmet_goals import floor_warnings
 from grasp_xl.space import OptionSpace
 from grasp_xl.task import Parameters, Task, settle
@@ -16,8 +17,16 @@ Active = Sequence[Sequence[int] | None]
 """Indices of a grasp given by options, a list a kind; None where an option was not given."""
 
 
-def prepare(book: Book, options: Parameters, grasp: Active = (None, None)) -> Task:
+def prepare(
+    book: Book, options: Parameters, grasp: Active = (None, None), stop: Stop = never
+) -> Task:
     """Settle the task of a workbook: options beat what it says.
+
+    Parameters
+    ----------
+    book, options, grasp
+    stop : callable
+        True ends the search for a benchmark.
 
     Raises
     ------
@@ -28,11 +37,11 @@ def prepare(book: Book, options: Parameters, grasp: Active = (None, None)) -> Ta
     """
     given = given_grasp(book.space, grasp)
     user = given or book.user_chromosome
-    task = settle(book.space, options.over(book.parameters), user, book.assigned)
+    task = settle(book.space, options.over(book.parameters), user, book.assigned, stop)
     return replace(task, warnings=(*book.warnings, *task.warnings))
 
 
-def refuse_infeasible(task: Task) -> None:
+def refuse_infeasible(task: Task, stop: Stop = never) -> None:
     """Refuse a task that no grasp can fulfil, before any search.
 
     Raises
@@ -41,7 +50,7 @@ def refuse_infeasible(task: Task) -> None:
         If no grasp meets FoS and clearance.
     """
     if not task.benchmark.feasible:
-        any_feasible(task.space, task.rules.requirements)
+        any_feasible(task.space, task.rules.requirements, stop=stop)
 
 
 def given_grasp(space: OptionSpace, grasp: Active) -> Chromosome | None:

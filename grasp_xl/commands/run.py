@@ -13,7 +13,7 @@ from grasp_xl.errors import Problem
 from grasp_xl.search.floors import floors
 from grasp_xl.search.genetic import OnProgress, search
 from grasp_xl.search.result import Result, State
-from grasp_xl.search.stop import StopRule
+from grasp_xl.search.stop import Interrupt, StopRule
 from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book
@@ -53,6 +53,7 @@ def run_file(
     *,
     grasp: Active = (None, None),
     stop: Callable[[Task], Sequence[StopRule]],
+    interrupt: Interrupt | None = None,
     go_on: bool = False,
     on_progress: OnProgress | None = None,
     prove: Callable[[Task, Result], Solved | None] | None = None,
@@ -66,6 +67,8 @@ def run_file(
         The user-defined grasp, where options name it.
     stop : callable
         Makes the stop rules of a settled task, when the search begins.
+    interrupt : Interrupt, optional
+        Once asked, it ends all searches with what is found by then.
     go_on : bool
         Go on from the run that the workbook holds.
     on_progress : callable, optional
@@ -73,18 +76,19 @@ def run_file(
         Given the run, says what the exact search proved; None where it was not asked.
     """
     clock, began = time.perf_counter(), now()
+    ask = interrupt or Interrupt()
     check_target(output.path, path, in_place=output.in_place, force=output.force)
     if not output.in_place:
         refuse_edited(output.path, force=output.force)
     if output.history:
         check_place(output.history, ".csv", force=output.force, option="--history")
     book = read_book(path)
-    task = prepare(book, options, grasp)
+    task = prepare(book, options, grasp, ask.is_asked)
     saved = saved_run_of(book, task) if go_on else None
     task = replace(task, warnings=(*task.warnings, *(_gaps(saved.state) if saved else ())))
     trade_offs, stale = kept_trade_offs(book, task)
     task = replace(task, warnings=(*task.warnings, *stale))
-    refuse_infeasible(task)
+    refuse_infeasible(task, ask.is_asked)
     task = with_floor_warnings(task, floors(task.space, task.rules.requirements))
     if output.in_place:
         refuse_to_lose(output, book)
@@ -93,7 +97,7 @@ def run_file(
         task.rules,
         task.settings,
         task.benchmark.chromosome,
-        stop(task),
+        [ask, *stop(task)],
         state=saved.state if saved else None,
         on_progress=on_progress,
     )

@@ -8,14 +8,13 @@ from grasp_xl.commands.keeping import held_run, kept_trade_offs
 from grasp_xl.commands.output import Output, now, written_book
 from grasp_xl.commands.preparing import prepare, with_floor_warnings
 from grasp_xl.errors import InfeasibleError
-from grasp_xl.rules import Terms
 from grasp_xl.search.exact import ExactSettings, OnBound, Proof
 from grasp_xl.search.exact import solve as prove
 from grasp_xl.search.floors import floors
 from grasp_xl.search.obstacles import any_feasible
-from grasp_xl.search.proven_floors import proven_floors
+from grasp_xl.search.proven_floors import ProvenFloors, proven_floors
 from grasp_xl.search.result import Result
-from grasp_xl.search.stop import Interrupt
+from grasp_xl.search.stop import Interrupt, Stop
 from grasp_xl.search.unmet_goals import why_none_meets_all
 from grasp_xl.search.warm import load_exact_search
 from grasp_xl.task import Parameters, Task
@@ -36,8 +35,8 @@ class Solved:
     task : Task
     settings : ExactSettings
     proof : Proof
-    floors : Terms or None
-        Least value of each criterion alone, as far as proved; None where no grasp is possible.
+    floors : ProvenFloors or None
+        None where no grasp is possible.
     seconds : float
         All that it took, with reading and floors.
     interrupted : bool
@@ -50,7 +49,7 @@ class Solved:
     task: Task
     settings: ExactSettings
     proof: Proof
-    floors: Terms | None
+    floors: ProvenFloors | None
     seconds: float
     interrupted: bool
     obstacle: InfeasibleError | None = None
@@ -111,28 +110,30 @@ def solve_file(
         refuse_edited(output.path, force=output.force)
     ask = interrupt or Interrupt()
     book = read_book(path)
-    task = prepare(book, options)
+    load_exact_search()
+    began = time.perf_counter()
+
+    def stop() -> bool:
+        return ask.asked or time.perf_counter() - began >= settings.time_limit_s
+
+    task = prepare(book, options, stop=stop)
     trade_offs, stale = kept_trade_offs(book, task) if output else (None, [])
     task = replace(task, warnings=(*task.warnings, *stale))
     space, rules = task.space, task.rules
     known = [task.benchmark.chromosome] if task.benchmark.feasible else []
-    load_exact_search()
-
-    def stop() -> bool:
-        return ask.asked
-
-    began = time.perf_counter()
+    left = settings.time_limit_s - (time.perf_counter() - began)
+    settings = replace(settings, time_limit_s=max(0.0, left))
     proof = prove(space, rules, settings, known=known, stop=stop, on_progress=on_progress)
-    obstacle = _obstacle(task, settings) if proof.status == "infeasible" else None
+    obstacle = _obstacle(task, settings, stop) if proof.status == "infeasible" else None
     least = None
     if obstacle is None:
         left = settings.time_limit_s - (time.perf_counter() - began)
         known += [grasp.chromosome for grasp in proof.designs]
         seconds = min(FLOOR_SECONDS, left)
         least = proven_floors(space, rules, seconds=seconds, known=known, stop=stop)
-        task = with_floor_warnings(task, least)
+        task = with_floor_warnings(task, least.least)
         if proof.status == "infeasible":
-            obstacle = why_none_meets_all(space, rules, least, settings.min_elements, stop)
+            obstacle = why_none_meets_all(space, rules, least.least, settings.min_elements, stop)
     seconds = time.perf_counter() - clock
     solved = Solved(task, settings, proof, least, seconds, ask.asked, obstacle)
     if output is None or obstacle:
@@ -180,18 +181,18 @@ def prove_run(
         task.rules,
         settings,
         known=known,
-        stop=lambda: ask.asked,
+        stop=ask.is_asked,
         on_progress=on_progress,
     )
-    least = floors(task.space, task.rules.requirements)
+    least = ProvenFloors(floors(task.space, task.rules.requirements), frozenset())
     seconds = time.perf_counter() - clock
     return Solved(task, settings, proof, least, seconds, ask.asked, output=output)
 
 
-def _obstacle(task: Task, settings: ExactSettings) -> InfeasibleError | None:
+def _obstacle(task: Task, settings: ExactSettings, stop: Stop) -> InfeasibleError | None:
     """Return why no grasp meets the constraints; None where only the goals are in the way."""
     try:
-        any_feasible(task.space, task.rules.requirements, settings.min_elements)
+        any_feasible(task.space, task.rules.requirements, settings.min_elements, stop)
     except InfeasibleError as error:
         return error
     return None

@@ -10,6 +10,7 @@ from grasp_xl.rules import Goals, Requirements, Rules, Terms
 from grasp_xl.search.evolution import draw_feasible
 from grasp_xl.search.feasibility import lifting_counts
 from grasp_xl.search.obstacles import any_feasible
+from grasp_xl.search.stop import Stop, never
 from grasp_xl.space import OptionSpace
 
 SAMPLE = 1_000
@@ -18,11 +19,19 @@ STREAM = 20_210_501
 """Seed of this module's own stream: the same benchmark in every command, for ever."""
 
 
-def assigned_benchmark(space: OptionSpace, requirements: Requirements) -> Chromosome:
+def assigned_benchmark(
+    space: OptionSpace, requirements: Requirements, stop: Stop = never
+) -> Chromosome:
     """Choose a fair random grasp: of 1,000 feasible ones, the one that is good all round.
 
     That is the one with the least sum of cost, moment, deviation and structure, each divided by
     its median over the sample; a zero median drops out.
+
+    Parameters
+    ----------
+    space, requirements
+    stop : callable
+        True ends the search where no random grasp is feasible.
 
     Raises
     ------
@@ -30,12 +39,12 @@ def assigned_benchmark(space: OptionSpace, requirements: Requirements) -> Chromo
         If no grasp meets FoS and clearance.
     """
     if not lifting_counts(space, requirements):
-        return any_feasible(space, requirements)
+        return any_feasible(space, requirements, stop=stop)
     tables = tabulate(space, Rules(Goals(Terms(1.0, 1.0, 1.0, 1.0)), requirements))
     rows = np.zeros((SAMPLE, len(space.kinds), 1 + space.gene_slots), dtype=np.int64)
     found = draw_feasible(tables, np.random.default_rng(STREAM), MAX_DRAWS, rows)
     if not found:
-        return any_feasible(space, requirements)
+        return any_feasible(space, requirements, stop=stop)
     terms = measure_rows(tables, rows[:found])[:, 1:5]
     medians = np.median(terms, axis=0)
     counted = medians > 0

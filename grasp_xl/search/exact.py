@@ -41,6 +41,7 @@ from grasp_xl.search.exact_prices import (
 )
 from grasp_xl.search.feasibility import lifting_counts
 from grasp_xl.search.floors import floors
+from grasp_xl.search.stop import Stop, never
 from grasp_xl.search.symmetry import symmetries
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
 
@@ -122,6 +123,11 @@ class Proof:
         best = self.designs[0].value
         return max(0.0, (best - self.bound) / max(abs(best), 1e-300))
 
+    @property
+    def is_best_proved(self) -> bool:
+        """Whether the first design is the best of all, even if the order of others is open."""
+        return self.gap is not None and self.gap <= PROOF
+
 
 OnBound = Callable[[float, float | None], None]
 """Given the bound and the best value so far."""
@@ -133,7 +139,7 @@ def solve(
     settings: ExactSettings | None = None,
     *,
     known: Sequence[Chromosome] = (),
-    stop: Callable[[], bool] = lambda: False,
+    stop: Stop = never,
     on_progress: OnBound | None = None,
 ) -> Proof:
     """Find the best grasp of all, and prove that there is no better one.
@@ -268,7 +274,7 @@ class _Search:
 
     # --- the search ---
 
-    def run(self, stop: Callable[[], bool], on_progress: OnBound | None) -> Proof:
+    def run(self, stop: Stop, on_progress: OnBound | None) -> Proof:
         """Expand nodes until none is left that could hold a better grasp, or somebody stops."""
 
         def asked_to_stop() -> bool:
@@ -381,9 +387,7 @@ class _Workers:
     def __exit__(self, *_: object) -> None:
         self._threads.shutdown()
 
-    def expand(
-        self, taken: int, upper: float, slack: float, asked_to_stop: Callable[[], bool]
-    ) -> None:
+    def expand(self, taken: int, upper: float, slack: float, asked_to_stop: Stop) -> None:
         """Expand the first nodes of the batch; those not done when asked to stop stay as they are.
 
         An error in a thread is raised here: it voids the proof.

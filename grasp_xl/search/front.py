@@ -22,7 +22,7 @@ from grasp_xl.rules import SLACK, TERMS, Criterion, Goals, Rules, Terms
 from grasp_xl.search.exact import ExactSettings, Proof, solve
 from grasp_xl.search.genetic import search
 from grasp_xl.search.result import GeneticSettings
-from grasp_xl.search.stop import Generations
+from grasp_xl.search.stop import Generations, Stop, never
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
 
 DEFAULT_GRID = 4
@@ -97,7 +97,7 @@ def find_front(
     *,
     grid: int = DEFAULT_GRID,
     seconds: float = math.inf,
-    stop: Callable[[], bool] = lambda: False,
+    stop: Stop = never,
     on_progress: OnFront | None = None,
 ) -> Front:
     """Find the trade-off front over cost, moment, deviation and structure.
@@ -224,7 +224,7 @@ class _Finder:
         self,
         space: OptionSpace,
         rules: Rules,
-        halted: Callable[[], bool],
+        halted: Stop,
         on_progress: OnFront | None,
         sums: Sequence[Terms],
     ) -> None:

@@ -6,6 +6,7 @@ searches for it end in time, else the smallest that was found.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -20,6 +21,7 @@ from grasp_xl.rounding import rounded_down, rounded_up
 from grasp_xl.rules import Requirements
 from grasp_xl.search.feasibility import lifting_counts, lifting_force, max_fos
 from grasp_xl.search.placing import Active, place
+from grasp_xl.search.stop import Stop, never
 from grasp_xl.search.warm import seconds_loading
 from grasp_xl.space import MAX_COUNT, OptionSpace
 
@@ -68,10 +70,15 @@ class Changes:
     forces_n: tuple[float | None, ...]
     min_elements: int | None
 
+    def _lower_fos(self, space: OptionSpace) -> str:
+        in_reach = rounded_down(max_fos(space), DIGITS)
+        crowded = " (no places were found for more elements)" if self.fos != in_reach else ""
+        return f"lower the FoS goal to {self.fos:g}{crowded}"
+
     def told(self, space: OptionSpace) -> str:
         """Return all changes as an imperative sentence without its full stop."""
         ways = [
-            f"lower the FoS goal to {self.fos:g}" if self.fos else "",
+            self._lower_fos(space) if self.fos else "",
             f"lower the clearance to {self.clearance_mm:g} mm" if self.clearance_mm else "",
             f"lower the least number of elements to {self.min_elements}"
             if self.min_elements
@@ -90,9 +97,15 @@ class Changes:
 
 
 def any_feasible(
-    space: OptionSpace, requirements: Requirements, min_elements: int = 1
+    space: OptionSpace, requirements: Requirements, min_elements: int = 1, stop: Stop = never
 ) -> Chromosome:
     """Return some grasp that meets FoS and clearance.
+
+    Parameters
+    ----------
+    space, requirements, min_elements
+    stop : callable
+        True ends the search, and that for changes that would help.
 
     Raises
     ------
@@ -103,14 +116,15 @@ def any_feasible(
     least = least_counts(space, requirements, min_elements)
     began, proved = time.perf_counter(), True
     for tried, counts in enumerate(least):
-        left = began + SEARCH_SECONDS - time.perf_counter()
+        left = (began + SEARCH_SECONDS - time.perf_counter()) / (len(least) - tried)
         loading = seconds_loading()
-        placing = place(space, counts, requirements.clearance_mm, left / (len(least) - tried))
+        placing = place(space, counts, requirements.clearance_mm, left, stop)
         began += seconds_loading() - loading
         if placing.active:
             return from_active(space, placing.active)
         proved &= placing.proved
-    changes = smallest_changes(space, requirements, min_elements)
+    seconds = time.perf_counter() - began
+    changes = smallest_changes(space, requirements, min_elements, stop)
     hint = changes.told(space)
     if not lifting_counts(space, requirements):
         raise InfeasibleError(_too_weak(space, requirements), where="FoS", hint=hint)
@@ -119,7 +133,9 @@ def any_feasible(
         message = f"No grasp can have {min_elements} elements: # Max. allows {most}."
         raise InfeasibleError(message, where="--min-elements", hint=hint)
     raise InfeasibleError(
-        _too_close(requirements, sum(least[0]), min_elements, proved=proved),
+        _too_close(
+            requirements, sum(least[0]), min_elements, None if proved else math.ceil(seconds)
+        ),
         where="Minimum Gripper Element Distance",
         hint=hint,
         proved=proved,
@@ -134,13 +150,15 @@ def _too_weak(space: OptionSpace, requirements: Requirements) -> str:
     )
 
 
-def _too_close(requirements: Requirements, fewest: int, min_elements: int, *, proved: bool) -> str:
+def _too_close(
+    requirements: Requirements, fewest: int, min_elements: int, seconds: int | None
+) -> str:
     distance = f"{requirements.clearance_mm:g} mm between"
     cause = f"FoS {requirements.fos:g} takes" if fewest > min_elements else "there must be"
     told = (
         f"No grasp can keep {distance} its elements"
-        if proved
-        else f"No grasp that keeps {distance} its elements was found in {SEARCH_SECONDS:g} s"
+        if seconds is None
+        else f"No grasp that keeps {distance} its elements was found in {seconds} s"
     )
     return f"{told}; {cause} at least {fewest} of them."
 
@@ -159,10 +177,10 @@ def _one_less(counts: Counts) -> list[Counts]:
 
 
 def smallest_changes(
-    space: OptionSpace, requirements: Requirements, min_elements: int = 1
+    space: OptionSpace, requirements: Requirements, min_elements: int = 1, stop: Stop = never
 ) -> Changes:
     """Find the smallest change of each single number that would allow a grasp."""
-    return _Explainer(space, requirements, min_elements).changes()
+    return _Explainer(space, requirements, min_elements, stop).changes()
 
 
 @dataclass(eq=False)
@@ -170,6 +188,7 @@ class _Explainer:
     space: OptionSpace
     need: Requirements
     min_elements: int
+    stop: Stop
     deadline: float = 0.0
 
     def changes(self) -> Changes:
@@ -193,10 +212,10 @@ class _Explainer:
 
     def _place(self, counts: Counts, clearance_mm: float) -> Active | None:
         left = self.deadline - time.perf_counter()
-        if left <= 0:
+        if left <= 0 or self.stop():
             return None
         loading = seconds_loading()
-        placing = place(self.space, counts, clearance_mm, min(left, PLACE_SECONDS))
+        placing = place(self.space, counts, clearance_mm, min(left, PLACE_SECONDS), self.stop)
         self.deadline += seconds_loading() - loading
         return placing.active
 
@@ -229,7 +248,7 @@ class _Explainer:
         low, high = 0.0, min(self.need.clearance_mm, diagonal)
         self._allow(CLEARANCE_SECONDS)
         while high - low > max(CLEARANCE_STEP * high, LEAST_CLEARANCE_MM):
-            if time.perf_counter() > self.deadline:
+            if time.perf_counter() > self.deadline or self.stop():
                 break
             middle = (low + high) / 2
             kept = max((self._kept(counts, middle) for counts in least), default=0.0)

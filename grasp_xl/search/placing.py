@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import permutations, product
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from grasp_xl.rules import SLACK, Criterion, Goals, Requirements, Rules, Terms
 from grasp_xl.search.exact import ExactSettings, solve
+from grasp_xl.search.stop import Stop, never
 from grasp_xl.search.warm import load_exact_search
 from grasp_xl.space import FloatArray, OptionSpace
 
@@ -25,6 +27,9 @@ SWEEPS = ((1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, -1.0))
 ANY_GAP = sys.float_info.max
 """Relative gap at which the exact search is content with the first grasp it meets."""
 
+KIND_SHARE = 0.2
+"""Share of the time for the look whether the elements of one kind alone find no room."""
+
 
 class Placing(NamedTuple):
     """Places that were found; None with ``proved`` where there are none, else none found yet."""
@@ -34,7 +39,11 @@ class Placing(NamedTuple):
 
 
 def place(
-    space: OptionSpace, counts: tuple[int, ...], clearance_mm: float, seconds: float
+    space: OptionSpace,
+    counts: tuple[int, ...],
+    clearance_mm: float,
+    seconds: float,
+    stop: Stop = never,
 ) -> Placing:
     """Look for footprints of which no two are closer than the clearance.
 
@@ -47,11 +56,35 @@ def place(
     clearance_mm : float
     seconds : float
         Longest exact search, where first fit finds nothing.
+    stop : callable
+        True ends it.
     """
-    for order, sweep in product(permutations(range(len(counts))), SWEEPS):
-        active = _first_fit(space, counts, clearance_mm * (1 - SLACK), order, sweep)
-        if active:
-            return Placing(active)
+    none: Active = ((),) * len(counts)
+    active = _first_fits(space, counts, clearance_mm, none)
+    if active:
+        return Placing(active)
+    load_exact_search()
+    deadline = time.perf_counter() + seconds
+    for number, count in enumerate(counts):
+        alone = tuple(count * (number == other) for other in range(len(counts)))
+        if count and alone != counts:
+            placing = place(space, alone, clearance_mm, seconds * KIND_SHARE, stop)
+            if placing.active:
+                active = _first_fits(space, counts, clearance_mm, placing.active)
+                if active:
+                    return Placing(active)
+            elif placing.proved:
+                return placing
+    return _search(space, counts, clearance_mm, deadline - time.perf_counter(), stop)
+
+
+def _search(
+    space: OptionSpace,
+    counts: tuple[int, ...],
+    clearance_mm: float,
+    seconds: float,
+    stop: Stop,
+) -> Placing:
     kinds = tuple(
         replace(kind, count_min=count, count_max=count)
         for kind, count in zip(space.kinds, counts, strict=True)
@@ -61,24 +94,40 @@ def place(
         Requirements(fos=0.0, clearance_mm=clearance_mm),
         Criterion(frozenset({"cost"})),
     )
-    load_exact_search()
     settings = ExactSettings(time_limit_s=seconds, gap=ANY_GAP)
-    proof = solve(replace(space, kinds=kinds), rules, settings)
+    proof = solve(replace(space, kinds=kinds), rules, settings, stop=stop)
     if proof.designs:
         return Placing(proof.designs[0].chromosome.active)
     return Placing(None, proof.status == "infeasible")
+
+
+def _first_fits(
+    space: OptionSpace, counts: tuple[int, ...], clearance_mm: float, placed: Active
+) -> Active | None:
+    """Try each order of the kinds that are not placed yet, and each sweep."""
+    missing = [number for number, count in enumerate(counts) if len(placed[number]) < count]
+    for order, sweep in product(permutations(missing), SWEEPS):
+        active = _first_fit(space, counts, clearance_mm * (1 - SLACK), placed, order, sweep)
+        if active:
+            return active
+    return None
 
 
 def _first_fit(
     space: OptionSpace,
     counts: tuple[int, ...],
     clearance_mm: float,
+    placed: Active,
     order: Sequence[int],
     sweep: tuple[float, float],
 ) -> Active | None:
     """Take the first free footprint along the sweep, again and again, kind after kind."""
-    active: list[tuple[int, ...]] = [()] * len(counts)
-    taken: list[FloatArray] = []
+    active = list(placed)
+    taken = [
+        kind.footprints_mm[index - 1, :2]
+        for kind, indices in zip(space.kinds, placed, strict=True)
+        for index in indices
+    ]
     for number in order:
         points = space.kinds[number].footprints_mm[:, :2]
         free = np.ones(len(points), dtype=bool)

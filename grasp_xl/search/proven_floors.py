@@ -3,14 +3,31 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.rules import TERMS, Criterion, Rules, Terms
 from grasp_xl.search.exact import ExactSettings, solve
 from grasp_xl.search.floors import floors
+from grasp_xl.search.stop import Stop, never
 from grasp_xl.space import OptionSpace
+
+
+class ProvenFloors(NamedTuple):
+    """What no grasp goes below, criterion by criterion.
+
+    Parameters
+    ----------
+    least : Terms
+    attained : frozenset of str
+        Criteria of which a grasp is known that is at the floor; the floor of another may be too
+        low.
+    """
+
+    least: Terms
+    attained: frozenset[str]
 
 
 def proven_floors(
@@ -19,8 +36,8 @@ def proven_floors(
     *,
     seconds: float,
     known: Sequence[Chromosome] = (),
-    stop: Callable[[], bool] = lambda: False,
-) -> Terms:
+    stop: Stop = never,
+) -> ProvenFloors:
     """Return the least value of each criterion alone that a grasp under the constraints has.
 
     Where the proof does not end in time, it is the greatest number that none was proved below.
@@ -38,7 +55,7 @@ def proven_floors(
     """
     least = floors(space, rules.requirements)
     deadline = time.perf_counter() + seconds
-    found = []
+    found, attained = [], set()
     for searches, term in zip(range(len(TERMS), 0, -1), TERMS, strict=True):
         left = deadline - time.perf_counter()
         if left <= 0 or stop():
@@ -46,5 +63,8 @@ def proven_floors(
             continue
         alone = replace(rules, criterion=Criterion(frozenset({term})))
         settings = ExactSettings(time_limit_s=left / searches)
-        found.append(solve(space, alone, settings, known=known, stop=stop).bound)
-    return Terms(*found)
+        proof = solve(space, alone, settings, known=known, stop=stop)
+        found.append(proof.bound)
+        if proof.status == "optimal":
+            attained.add(term)
+    return ProvenFloors(Terms(*found), frozenset(attained))

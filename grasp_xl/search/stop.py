@@ -8,13 +8,22 @@ from __future__ import annotations
 
 import signal
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from types import FrameType
 from typing import Literal, Protocol
 
 StopReason = Literal["generations", "stall", "target", "time", "interrupted"]
+
+Stop = Callable[[], bool]
+"""Asked many times a second; True ends a search with what it knows by then."""
+
+
+def never() -> bool:
+    """Let a search go on to its end."""
+    return False
+
 
 CHUNK = 4096
 """Most generations between two looks at the clock: a few milliseconds."""
@@ -99,6 +108,10 @@ class Interrupt:
     def generations_left(self, progress: Progress) -> int:  # noqa: ARG002 (the person decides)
         """Go on, a few milliseconds at a time, until asked to stop."""
         return 0 if self.asked else CHUNK
+
+    def is_asked(self) -> bool:
+        """Tell a search whether to end."""
+        return self.asked
 
 
 def first_to_stop(rules: Sequence[StopRule], progress: Progress) -> tuple[int, StopReason | None]:

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import replace
 
 from grasp_xl.errors import InfeasibleError, Problem
 from grasp_xl.rounding import rounded_up
 from grasp_xl.rules import SLACK, TERMS, UNITS, Criterion, Goals, Requirements, Rules, Terms
 from grasp_xl.search.exact import ExactSettings, solve
+from grasp_xl.search.stop import Stop, never
 from grasp_xl.space import OptionSpace
 
 DIGITS = 6
 
-EXPLAIN_SECONDS = 5.0
+EXPLAIN_SECONDS = 15.0
 """Longest search for the goal changes that would help."""
 
 
@@ -46,7 +46,7 @@ def why_none_meets_all(
     rules: Rules,
     floors: Terms,
     min_elements: int,
-    stop: Callable[[], bool] = lambda: False,
+    stop: Stop = never,
 ) -> InfeasibleError:
     """Say which goals are below their floors, and which single goal change would be enough.
 
@@ -83,7 +83,7 @@ def _single_changes(
     rules: Rules,
     movable: list[str],
     min_elements: int,
-    stop: Callable[[], bool],
+    stop: Stop,
 ) -> list[str]:
     """Minimise each term while all other goals are met."""
     changes = []
