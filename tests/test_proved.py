@@ -353,7 +353,8 @@ def written(status: Status, criterion: str = "divergence") -> bytes:
     task = replace(case.task, rules=rules)
     grasp = evaluate(task.space, rules, task.benchmark.chromosome)
     designs = () if status == "unknown" else (grasp,)
-    proved = Proved(Proof(status, 0.125, designs, 1.0, nodes=0), ended="interrupted")
+    bound = grasp.value if status == "optimal" else 0.125
+    proved = Proved(Proof(status, bound, designs, 1.0, nodes=0), ended="interrupted")
     origin = Origin("case.xlsx", "", now(), now())
     return full_workbook(task, not_begun(task), origin, proved=proved)[0]
 

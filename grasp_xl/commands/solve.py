@@ -71,8 +71,11 @@ class Solved:
 
     @property
     def shown(self) -> Proved:
-        """What the workbook shows of it."""
-        return Proved(self.proof, among(self.settings), self.ended)
+        """What the workbook shows of it: its best design alone."""
+        proof = self.proof
+        status = "optimal" if proof.is_best_proved else proof.status
+        proof = replace(proof, status=status, designs=proof.designs[:1])
+        return Proved(proof, among(self.settings), self.ended)
 
 
 def solve_file(

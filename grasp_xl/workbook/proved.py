@@ -45,13 +45,13 @@ class Proved:
     @property
     def label(self) -> str:
         """What that grasp is, in two words."""
-        return layout.PROVED.label if self.proof.is_best_proved else BEST_KNOWN
+        return layout.PROVED.label if self.proof.status == "optimal" else BEST_KNOWN
 
     @property
     def title(self) -> str:
         """What that grasp is, and how far from proved: the title of its card."""
         whose = "" if self.among == ALL_GRASPS else f" among {self.among}"
-        if self.proof.is_best_proved:
+        if self.proof.status == "optimal":
             return f"{self.label}{whose}"
         if self.proof.gap is None:
             return f"{NOT_PROVED}{whose} (no grasp found)"
