@@ -22,6 +22,7 @@ from grasp_xl.workbook.picker import (
     GENE_COLUMN,
     GENE_ROW_STYLES,
     NUMBER_COLUMN,
+    Overruled,
     PickHint,
     constant,
     slot_labels,
@@ -72,12 +73,13 @@ def write_valid_designs(
     result: Result,
     unpicked: Chromosome,
     picked: Chromosome | None,
-    overruled: tuple[str, str] = ("", ""),
+    on_card: Chromosome,
+    overruled: Overruled | None = None,
 ) -> None:
     """Write the list as an Excel table, a picked row above, all gene rows below, a chart beside.
 
     ``unpicked`` are the genes shown while no row is picked, ``picked`` the design picked before,
-    ``overruled`` when the What-if card shows something else, and what is said then.
+    ``on_card`` what the What-if card shows, ``overruled`` why that may be something else.
     """
     designs = result.design_rows[-MAX_DESIGNS:]
     own_units = [label for _, _, label, _ in CRITERIA[:-1]]
@@ -85,7 +87,10 @@ def write_valid_designs(
     labels = ["No.", "Generation", *genes, *own_units, *NORMALISED, "Divergence", "Meets All Goals"]
     rows = max(1, len(designs))
     write_result_title(pen, "VALID DESIGNS")
-    _picker(pen, result, rows, unpicked, picked, overruled)
+    number = number_of(result, picked) if picked else None
+    shown = picked if picked and number else unpicked
+    hint = PickHint(PICK_HINT, "the best grasp", overruled)
+    DESIGN_PICK.write(pen, rows, number, shown, constant(unpicked), hint, on_card)
     _rows(pen, result, designs)
     _rows_to_copy(pen, result, designs, TABLE_ROW + rows + 3)
     add_table(pen, "ValidDesigns", Area(VALID_DESIGNS, TABLE_ROW, 0, 1 + rows, len(labels)), labels)
@@ -126,21 +131,6 @@ def _rows(pen: Pen, result: Result, designs: Rows) -> None:
         left += 1 + len(TERMS)
         pen.write(row, left, float(design["divergence"]), Style.DIVERGENCE)
         pen.write(row, left + 1, YES if design["meets_all_goals"] else NO, Style.CENTRED)
-
-
-def _picker(
-    pen: Pen,
-    result: Result,
-    rows: int,
-    unpicked: Chromosome,
-    picked: Chromosome | None,
-    overruled: tuple[str, str],
-) -> None:
-    """Write the cell that picks a row, and the two gene rows: of that row, or of the best grasp."""
-    number = number_of(result, picked) if picked else None
-    shown = picked if picked and number else unpicked
-    hint = PickHint(PICK_HINT, "the best grasp", *overruled)
-    DESIGN_PICK.write(pen, rows, number, shown, constant(unpicked), hint)
 
 
 def _rows_to_copy(pen: Pen, result: Result, designs: Rows, top: int) -> None:

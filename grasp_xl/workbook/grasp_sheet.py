@@ -67,8 +67,16 @@ MARGIN = 0.01
 """Free part of the extent on each side, beyond the elements and the part."""
 PICTURE_COLUMNS = 12
 """Of the default width, from one picture to the next."""
+MESSAGE_ROW = 1
 FIRST_POINT = 3
+FIRST_END = FIRST_POINT + len(KINDS) + 2
+"""Row of the first of the axes' four ends, among the points."""
 NO_POINT = "#N/A"
+NOT_DRAWN = "The grasp is not drawn: "
+OUTSIDE = (
+    "Places, corners or the centroid lie outside the picture: run grasp-xl on this workbook to "
+    "draw it anew."
+)
 MOST_SERIES = 255
 """That a chart of Excel's may have."""
 
@@ -145,8 +153,15 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
     for number in range(len(KINDS)):
         cell = _inset_cell(number)
         pen.write(cell.row, cell.column, _filling(space, number, frame)[1], Style.COORDINATE)
+    ends = Area(GRASP, FIRST_END, column + 2, 4)
+    pen.write(ends.row - 1, ends.column, "x from, to; y from, to (mm)", Style.HEADER)
+    for row, end in enumerate(zip(frame.low_mm, frame.high_mm, strict=True)):
+        for side in range(2):
+            pen.write(ends.row + 2 * row + side, ends.column, end[side], Style.COORDINATE)
     column += 4
     for number, picture in enumerate(pictures):
+        told = _message(space, picture, ends)
+        pen.write(MESSAGE_ROW, number * PICTURE_COLUMNS, "", Style.WARNING, told)
         chart = book.add_chart({"type": "scatter", "subtype": "straight"})
         strokes, column = _write_strokes(pen, space, picture, column, frame)
         _add_series(chart, _places_series(space), [*_polygon_series(space), *strokes])
@@ -160,6 +175,22 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
 
 def _series(name: str, x: Area, y: Area, look: dict[str, Any]) -> dict[str, Any]:
     return {"name": name, "categories": f"={x.reference}", "values": f"={y.reference}", **look}
+
+
+def _message(space: OptionSpace, picture: Picture, ends: Area) -> str:
+    """Return the formula of a sentence on what a picture cannot show, if anything."""
+    lists = [
+        labels.locations_name for labels, kind in zip(KINDS, space.kinds, strict=True) if kind.total
+    ]
+    lists += [layout.IDEAL_POLYGON, layout.APPROXIMATION_POLYGON]
+    beyond = []
+    for axis, centroid in enumerate(("CentroidX", "CentroidY")):
+        low, high = (ends.cell(2 * axis + side, 0).absolute for side in range(2))
+        for cells in (*(f"INDEX({name},0,{axis + 1})" for name in lists), centroid):
+            beyond += [f'COUNTIF({cells},"<"&{low})', f'COUNTIF({cells},">"&{high})']
+    fault = picture.block.summary("fault").reference
+    outside = f'IF({"+".join(beyond)}>0,"{OUTSIDE}","")'
+    return f'IF({fault}="",{outside},"{NOT_DRAWN}"&{fault})'
 
 
 def _line(colour: str, width: float) -> dict[str, Any]:
@@ -260,9 +291,10 @@ def _strokes(
         yield name, _outline(space, picture, row), _line(OUTLINE_COLOURS[number], EDGE)
     centroid = [(float(space.part.centroid_mm[0]), float(space.part.centroid_mm[1]))]
     yield "Centroid", Stroke([*centroid], [("CentroidX", "CentroidY")]), _mark("x", BLACK, 9)
-    force = block.column("force (N)").reference
+    force, usable = block.column("force (N)").reference, block.summary("usable").reference
     mean = [
-        f"IF(SUM({force})=0,NA(),SUMPRODUCT({force}*{block.column(axis).reference})/SUM({force}))"
+        f"IF({usable}*SUM({force})=0,NA(),"
+        f"SUMPRODUCT({force}*{block.column(axis).reference})/SUM({force}))"
         for axis in ("x", "y")
     ]
     centre = picture.grasp.centre_of_force_mm
@@ -275,6 +307,11 @@ def _places(picture: Picture) -> dict[int, FloatArray]:
     slots, counts = picture.block.slots, picture.grasp.chromosome.counts.tolist()
     rows = [kind * slots + slot for kind, count in enumerate(counts) for slot in range(count)]
     return dict(zip(rows, picture.grasp.points_mm[:, :2], strict=True))
+
+
+def _drawn(block: CalcBlock, row: int) -> str:
+    """Return the condition, 1 or 0, that an element is drawn: it is active in a usable grasp."""
+    return f"{block.element('active', row).reference}*{block.summary('usable').reference}"
 
 
 def _pair(point: FloatArray) -> Pair:
@@ -291,10 +328,12 @@ def _main_truss(picture: Picture) -> Stroke:
     block, places = picture.block, _places(picture)
     points: list[Pair] = [_pair(places[row]) for row in _truss_rows(picture)]
     formulas = []
+    usable = block.summary("usable").reference
     for end in ("main truss from", "main truss to"):
         row = block.summary(end).reference
         x, y = (
-            f"IF({row}=0,NA(),INDEX({block.column(axis).reference},{row}))" for axis in ("x", "y")
+            f"IF({usable}*{row}=0,NA(),INDEX({block.column(axis).reference},{row}))"
+            for axis in ("x", "y")
         )
         formulas.append((x, y))
     return Stroke(points or [(NO_POINT, NO_POINT)] * 2, formulas)
@@ -317,8 +356,7 @@ def _branch(picture: Picture, row: int, ends: Area) -> Stroke:
     start_row, end_row = (
         block.summary(end).reference for end in ("main truss from", "main truss to")
     )
-    active = block.element("active", row).reference
-    on = f"({active}=1)*({start_row}>0)*({start_row}<>{row + 1})*({end_row}<>{row + 1})=1"
+    on = f"{_drawn(block, row)}*({start_row}>0)*({start_row}<>{row + 1})*({end_row}<>{row + 1})=1"
     foot = (f"{x0}+{along_formula}*{dx}", f"{y0}+{along_formula}*{dy}")
     formulas = [
         (f"IF({on},{x},NA())", f"IF({on},{y},NA())"),
@@ -374,7 +412,7 @@ def _circle(
     radius = f"IF(ISNUMBER({name}),{name},{assumed:g})/2"
     if inset_mm:
         radius = f"MAX(0,{radius}-{_inset_cell(number).absolute})"
-    active = block.element("active", row).reference
+    drawn = _drawn(block, row)
     x, y = (block.element(axis, row).reference for axis in ("x", "y"))
     points: list[Pair] = []
     formulas = []
@@ -387,8 +425,8 @@ def _circle(
         )
         formulas.append(
             (
-                f"IF({active}=1,{x}+{radius}*{cosine},NA())",
-                f"IF({active}=1,{y}+{radius}*{sine},NA())",
+                f"IF({drawn},{x}+{radius}*{cosine},NA())",
+                f"IF({drawn},{y}+{radius}*{sine},NA())",
             )
         )
     return Stroke(points, formulas)

@@ -220,8 +220,8 @@ class Comparison:
         if cell in self._source.worked_out or (cell in self._inputs and not formula):
             return ""
         if formula:
-            kept = our_formula == formula or (our_formula and cell in self._inputs)
-            return "" if kept else FORMULAS
+            ours = our_formula == formula or (cell in self._inputs and _alike(formula, our_formula))
+            return "" if ours else FORMULAS
         value, our_value = self._source.value(cell), self._copy.value(copied)
         if our_formula:
             kept = _same(value, our_value)
@@ -247,6 +247,11 @@ class Comparison:
         if not self._written.same_inputs:
             text, our_text = (re.sub(r"\(.*\)|\d", "", one) for one in (text, our_text))
         return text.strip() == our_text.strip()
+
+
+def _alike(formula: str, our_formula: str) -> bool:
+    """Tell whether formulas differ at most in rows and sizes."""
+    return re.sub(r"\d", "", formula) == re.sub(r"\d", "", our_formula)
 
 
 def _is_result(value: Value) -> bool:

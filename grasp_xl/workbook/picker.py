@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from grasp_xl.chromosome import Chromosome
-from grasp_xl.workbook.layout import KINDS, TABLE_ROW, TRADE_OFFS, VALID_DESIGNS, Area
+from grasp_xl.workbook.layout import KINDS, TABLE_ROW, TRADE_OFFS, VALID_DESIGNS, WHAT_IF, Area
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import Style
 
@@ -20,6 +20,11 @@ PICKED_ROWS = (PICK_ROW + 2, 1)
 NUMBER_COLUMN, GENE_COLUMN = 0, 2
 """Columns of the table: a design's number, by which it is picked, and its first gene."""
 GENE_ROW_STYLES = (Style.SUCTION_GENE, Style.MAGNETS_GENE)
+
+TYPED = (
+    "The What-if card shows genes that were typed there, not these. Empty its genes and run "
+    "grasp-xl on this workbook to see here and there what is picked."
+)
 
 Formulas = list[list[str | None]]
 """A formula for each gene of both rows; None for a gene that is blank."""
@@ -76,6 +81,12 @@ class Picker:
         numbers = self._column(NUMBER_COLUMN, rows)
         return f"AND(ISNUMBER({self.name}),ISNUMBER(MATCH({self.name},{numbers},0)))"
 
+    def other_genes_on_card(self, slots: int) -> str:
+        """Return the condition that the What-if card shows other genes than the two rows."""
+        genes = Area(self.sheet, *PICKED_ROWS, len(KINDS), 1 + slots).absolute
+        differ = f'SUMPRODUCT(1*({WHAT_IF.name}&""<>{genes}&""))'
+        return f"IF(ISERROR({differ}),TRUE,{differ}>0)"
+
     def _column(self, column: int, rows: int) -> str:
         return Area(self.sheet, TABLE_ROW + 1, column, rows).reference
 
@@ -87,6 +98,7 @@ class Picker:
         shown: Chromosome,
         unpicked: Formulas,
         hint: PickHint,
+        on_card: Chromosome,
     ) -> None:
         """Write the cell, and two gene rows as figure 34 has them: of what is picked, or not.
 
@@ -101,11 +113,16 @@ class Picker:
             Whose genes stand in the two rows then.
         unpicked : list of list of str
         hint : PickHint
+        on_card : Chromosome
+            What the What-if card shows.
         """
+        slots = len(unpicked[0]) - 1
+        typed = Overruled(self.other_genes_on_card(slots), TYPED, on_card.rows() != shown.rows())
+        told = hint.told(self, rows, typed)
         pen.write(PICK_ROW, 0, "No. to show", Style.LABEL)
         pen.note(PICK_ROW, 0, hint.text)
         pen.write(PICK_ROW, 1, number, Style.INPUT)
-        pen.write(PICK_ROW, 2, hint.text, Style.NOTE, hint.formula(self, rows))
+        pen.write(PICK_ROW, 2, told[0], Style.NOTE, told[1])
         pen.name_area(self.name, Area(self.sheet, PICK_ROW, 1))
         pen.sheet.data_validation(
             PICK_ROW,
@@ -120,13 +137,31 @@ class Picker:
                 "error_message": f"The list has the numbers 1 to {rows}.",
             },
         )
-        pen.row(PICK_ROW + 1, 1, slot_labels(len(unpicked[0]) - 1), Style.HEADER)
+        pen.row(PICK_ROW + 1, 1, slot_labels(slots), Style.HEADER)
         formulas = self.formulas(rows, unpicked)
         for kind, (labels, genes) in enumerate(zip(KINDS, shown.rows(), strict=True)):
             row, style = PICK_ROW + 2 + kind, GENE_ROW_STYLES[kind]
             pen.write(row, 0, labels.row_label, style)
             for slot, (gene, formula) in enumerate(zip(genes, formulas[kind], strict=True)):
                 pen.write(row, 1 + slot, gene, style, formula)
+
+
+class Overruled(NamedTuple):
+    """Why the What-if card shows something else than what is picked.
+
+    Parameters
+    ----------
+    condition : str
+        Formula that is true where it does.
+    told : str
+        What is said then.
+    now : bool
+        Whether it does, as written.
+    """
+
+    condition: str
+    told: str
+    now: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,24 +174,34 @@ class PickHint:
         What it is for.
     otherwise : str
         What is shown where no number can be used.
-    overruled : str
-        Condition under which the What-if card shows something else; empty for never.
-    overruled_text : str
-        What is said then.
+    overruled : Overruled, optional
+        By another cell.
     """
 
     text: str
     otherwise: str
-    overruled: str = ""
-    overruled_text: str = ""
+    overruled: Overruled | None = None
 
-    def formula(self, picker: Picker, rows: int) -> str:
-        """Return the formula of the sentence."""
+    def told(self, picker: Picker, rows: int, typed: Overruled) -> tuple[str, str]:
+        """Return the sentence as it is now, and its formula.
+
+        Parameters
+        ----------
+        picker : Picker
+        rows : int
+            Rows of the list.
+        typed : Overruled
+            By genes on the What-if card itself.
+        """
         wrong = f"No such number: type a whole number from 1 to {rows}; {self.otherwise} is shown."
-        told = f'IF(OR({picker.name}="",{picker.usable(rows)}),"{self.text}","{wrong}")'
-        if not self.overruled:
-            return told
-        return f'IF({self.overruled},"{self.overruled_text}",{told})'
+        empty = f'IF(ISERROR({picker.name}),FALSE,{picker.name}="")'
+        formula = f'IF(OR({empty},{picker.usable(rows)}),"{self.text}","{wrong}")'
+        value = self.text
+        for each in (typed, self.overruled):
+            if each:
+                formula = f'IF({each.condition},"{each.told}",{formula})'
+                value = each.told if each.now else value
+        return value, formula
 
 
 DESIGN_PICK = Picker(VALID_DESIGNS, "DesignPick")

@@ -20,6 +20,7 @@ from grasp_xl.workbook.picker import (
     GENE_COLUMN,
     NUMBER_COLUMN,
     TRADE_OFF_PICK,
+    Overruled,
     PickHint,
     blank_like,
 )
@@ -104,10 +105,16 @@ class TradeOffs:
         numbers = (each.number for each in self.designs if each.chromosome == chromosome)
         return next(numbers, None)
 
-    @property
-    def overruled(self) -> tuple[str, str]:
-        """When the pick of ``Valid Designs`` is not on the What-if card, and what is said then."""
-        return TRADE_OFF_PICK.usable(max(1, len(self.designs))), OVERRULED
+    def overrules(self, picked: Chromosome | None) -> Overruled:
+        """Say when the pick of ``Valid Designs`` is not on the What-if card.
+
+        Parameters
+        ----------
+        picked : Chromosome or None
+            Which design of this list is picked.
+        """
+        condition = TRADE_OFF_PICK.usable(max(1, len(self.designs)))
+        return Overruled(condition, OVERRULED, picked is not None)
 
 
 def write_trade_offs(
@@ -117,10 +124,12 @@ def write_trade_offs(
     trade_offs: TradeOffs,
     unpicked: Chromosome,
     picked: Chromosome | None,
+    on_card: Chromosome,
 ) -> None:
     """Write the list as an Excel table, a picked row above, two charts beside.
 
-    ``unpicked`` are the genes that ``Valid Designs`` shows, ``picked`` the design picked here.
+    ``unpicked`` are the genes that ``Valid Designs`` shows, ``picked`` the design picked here,
+    ``on_card`` what the What-if card shows.
     """
     space, designs = task.space, trade_offs.designs
     grasps = [evaluate(space, task.rules, each.chromosome) for each in designs]
@@ -133,7 +142,7 @@ def write_trade_offs(
     pen.write(TOLD_ROW, 0, trade_offs.told, Style.NOTE)
     number = trade_offs.number_of(picked)
     others = blank_like(DESIGN_PICK.picked_genes(space.gene_slots), unpicked)
-    TRADE_OFF_PICK.write(pen, rows, number, picked or unpicked, others, HINT)
+    TRADE_OFF_PICK.write(pen, rows, number, picked or unpicked, others, HINT, on_card)
     pen.write(EXPLAINED_ROW, 0, EXPLAINED, Style.NOTE)
     for row, (design, grasp) in enumerate(zip(designs, grasps, strict=True), TABLE_ROW + 1):
         for column, (value, style) in enumerate(_cells(task, design, grasp)):

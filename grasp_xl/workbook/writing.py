@@ -87,13 +87,14 @@ def full_workbook(
     pens = {name: Pen(book, formats, name, run) for name in sheets}
     write_option_space(pens[layout.OPTION_SPACE], task.space, live=True)
     cards = write_ga(pens[layout.GA], plan, task, result, shown)
-    overruled = trade_offs.overruled if trade_offs else ("", "")
+    overruled = trade_offs.overrules(picks.trade_off) if trade_offs else None
+    on_card = shown.what_if.chromosome
     designs = pens[layout.VALID_DESIGNS]
-    write_valid_designs(designs, book, result, best.chromosome, picks.design, overruled)
+    write_valid_designs(designs, book, result, best.chromosome, picks.design, on_card, overruled)
     if trade_offs:
         unpicked = picks.design or best.chromosome
         place = pens[layout.TRADE_OFFS]
-        write_trade_offs(place, book, task, trade_offs, unpicked, picks.trade_off)
+        write_trade_offs(place, book, task, trade_offs, unpicked, picks.trade_off, on_card)
     write_fitness_table(pens[layout.FITNESS_TABLE], result, proved)
     write_history(pens[layout.HISTORY], book, result, proved)
     benchmark = Picture("Benchmark grasp", result.benchmark, user_block(plan))
