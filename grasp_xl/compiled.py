@@ -69,9 +69,10 @@ def _compiled(function: Callable[P, R], **options: bool) -> Callable[P, R]:
         kernel = numba.njit(**settled)(function)
     finally:
         settings.CACHE_DIR = usual
-    # A constant is a number like any other: numba would compile the kernel anew for each.
-    find = kernel.get_call_template
-    kernel.get_call_template = lambda args, kws: find(tuple(map(unliteral, args)), kws)
+    if not settings.DISABLE_JIT:
+        # A constant is a number like any other: numba would compile the kernel anew for each.
+        find = kernel.get_call_template
+        kernel.get_call_template = lambda args, kws: find(tuple(map(unliteral, args)), kws)
     return cast("Callable[P, R]", kernel)
 
 

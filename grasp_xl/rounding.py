@@ -43,6 +43,8 @@ def percent(fraction: float) -> str:
 
 
 def _rounded(number: float, digits: int, whole: Callable[[float], int]) -> float:
+    if number == 0:
+        return 0.0
     places = digits - 1 - math.floor(math.log10(number))
     unit = 10.0**-places
     return round(whole(number / unit) * unit, places)

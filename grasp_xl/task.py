@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from collections.abc import Iterable
+from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 
 from grasp_xl.chromosome import Chromosome, is_usable
@@ -108,6 +109,10 @@ class Task:
     benchmark: Grasp
     assigned: bool
     warnings: tuple[Problem, ...]
+
+    def warned(self, more: Iterable[Problem]) -> Task:
+        """Return the task with more warnings behind its own."""
+        return replace(self, warnings=(*self.warnings, *more))
 
 
 def settle(

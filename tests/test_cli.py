@@ -30,7 +30,7 @@ from grasp_xl.commands.solve import solve_file
 from grasp_xl.search import stop
 from grasp_xl.search.exact import ExactSettings
 from grasp_xl.task import Parameters
-from grasp_xl.workbook import cells, reading_ga
+from grasp_xl.workbook import cells, layout, reading_ga
 
 SAMPLES = Path(__file__).parents[1] / "workbooks"
 COMMANDS = ("check", "new", "evaluate", "run", "solve", "front")
@@ -237,6 +237,30 @@ def test_check_shows_what_is_known_of_a_space_without_a_grasp(
     assert plain.err.startswith("No grasp")
 
 
+@pytest.mark.parametrize("command", ["check", "evaluate", "run", "solve", "front", "new"])
+def test_no_element_at_all_is_told(gx: Any, tmp_path: Path, command: str) -> None:
+    """Max. 0 of both kinds: one sentence, what would lift three times 86.9 N, exit code 4."""
+    tiny_export(tmp_path / "none.xlsx", {"B11": 0, "B12": 0, "B19": 0, "B20": 0})
+    told = gx(command, tmp_path / "none.xlsx", *(("-o", tmp_path / "b.xlsx") * (command == "new")))
+    assert told.code == 4
+    assert told.err.startswith("No grasp can have an element: # Max. or the places of each kind")
+    assert "Raise # Max. of suction to 4 or raise # Max. of magnets to 3." in told.err
+
+
+def test_problems_of_both_sheets_are_named_at_once(gx: Any, bracket: Path) -> None:
+    """Parameters are judged also where the option space cannot be used."""
+    opened = openpyxl.load_workbook(bracket)
+    opened[layout.GA]["B7"] = "x"
+    opened[layout.GA]["B12"] = 0
+    opened[layout.OPTION_SPACE]["B5"] = -1
+    opened.save(bracket)
+    told = gx("check", bracket)
+    assert told.code == 3
+    assert [line.split(":")[0] for line in told.err.splitlines()] == [
+        *("GA!B7", "GA!B12", "Option Space!B5")
+    ]
+
+
 def test_a_workbook_can_be_made_of_a_space_without_a_grasp(gx: Any, tmp_path: Path) -> None:
     """With a grasp of the designer's there is a benchmark, so that a Max. can be raised in it."""
     export = tmp_path / "heavy.xlsx"
@@ -432,6 +456,18 @@ def test_output_that_nobody_can_take_is_no_traceback(bracket: Path) -> None:
     told = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, check=False)  # noqa: S603
     os.close(writer)
     assert (told.returncode, told.stderr) == (0, "")
+    for failing, code in ((["run", str(bracket), "--fos", "99", "--json"], 4), (["no"], 2)):
+        with Path("/dev/full").open("w") as full:
+            command = [sys.executable, "-m", "grasp_xl", *failing]
+            told = subprocess.run(command, stdout=full, stderr=full, check=False)  # noqa: S603
+            assert told.returncode == code
+        reader, writer = os.pipe()
+        os.close(reader)
+        told = subprocess.run(  # noqa: S603
+            command, stdout=writer, stderr=subprocess.PIPE, text=True, check=False
+        )
+        os.close(writer)
+        assert (told.returncode, "Traceback" in told.stderr) == (code, False)
     greek = bracket.rename(bracket.with_name("λαβή.xlsx"))
     told = program("check", greek, env={**os.environ, "PYTHONIOENCODING": "ascii"})
     assert (told.returncode, told.stderr) == (0, "")

@@ -68,6 +68,7 @@ CARDS = {
     "Proved": PLAN.proved,
 }
 USER = PLAN.block_genes(layout.USER_BLOCK)
+WHAT_IF_GENES = PLAN.what_if.genes
 CARD_ROWS, CARD_COLUMNS = 43, 7
 GA_CELLS = Area(GA, 0, 0, PLAN.card_row + CARD_ROWS, PLAN.proved.column + CARD_COLUMNS)
 STATUS, DIFFERENCE = (35, 0), (42, 5)
@@ -780,6 +781,18 @@ def test_a_picked_design_is_loaded(opened, bracket):
         assert opened.read(rows) == opened.read("WhatIf") == best
 
 
+def test_the_pick_says_where_the_card_shows_typed_genes(opened):
+    """Beside each cell: as soon as a gene differs from the two rows; an error in the cell is told."""
+    hint = Area(VALID_DESIGNS, PICK_ROW, 2)
+    opened.enter({DESIGN_PICK.name: 1})
+    assert str(opened.value(hint)).startswith("Type a No. of the list")
+    opened.enter({WHAT_IF_GENES.cell(0, 1): 27})
+    assert str(opened.value(hint)).startswith("The What-if card shows genes that were typed there")
+    opened.undo()
+    opened.enter({DESIGN_PICK.name: "=1/0"})
+    assert str(opened.value(hint)).startswith("No such number: type a whole number from 1 to")
+
+
 def listed_genes(office: Office, number: int) -> list[list[CellValue]]:
     """Return the two gene rows of a design, from the list."""
     (row,) = office.read(Area(VALID_DESIGNS, TABLE_ROW + number, GENE_COLUMN, 1, 12))
@@ -912,6 +925,56 @@ def test_a_grasp_chart_has_the_scale_of_its_frame(bracket):
             assert width / height == pytest.approx(x / y, rel=1e-9)
     assert found == 2
     assert bracket.stat().st_size < 400_000
+
+
+FIRST_STROKE = layout.GRASP_DATA_COLUMN + 4
+STROKES = 10 + 1 + 10 + 10
+"""Fillings, main truss, branches and outlines of five of each kind; then come the two centres."""
+DRAWN = Area(GRASP, grasp_sheet.FIRST_POINT, FIRST_STROKE, len(grasp_sheet.OUTLINE), 2 * STROKES)
+CENTRE = Area(GRASP, grasp_sheet.FIRST_POINT, FIRST_STROKE + 2 * (STROKES + 1), 1, 2)
+"""Centre of force."""
+
+
+def numbers_in(office: Office, *areas: Area) -> int:
+    """Count the cells that a chart draws."""
+    cells = [value for area in areas for row in office.read(area) for value in row]
+    return sum(isinstance(value, int | float) for value in cells)
+
+
+@pytest.mark.parametrize("gene", WRONG)
+def test_no_grasp_is_drawn_that_does_not_exist(gene, opened):
+    """Neither element nor truss nor centre of force; above the picture stands what to type."""
+    row, column, values, message = WRONG[gene]
+    opened.enter({WHAT_IF_GENES.cell(0, 0): 2, WHAT_IF_GENES.cell(1, 0): 2})
+    said = Area(GRASP, grasp_sheet.MESSAGE_ROW, 0)
+    assert numbers_in(opened, DRAWN, CENTRE) > 4 * len(grasp_sheet.OUTLINE)
+    assert opened.value(said) == ""
+    for value in values:
+        opened.enter({WHAT_IF_GENES.cell(row, column): value})
+        assert numbers_in(opened, DRAWN, CENTRE) == 0, value
+        told = str(opened.value(said))
+        assert told.startswith(f"The grasp is not drawn: {message.split(':')[0]}: type")
+
+
+def test_no_grasp_is_drawn_with_an_index_twice(opened):
+    """Two elements cannot stand at one place: neither they nor the others are drawn."""
+    opened.enter({WHAT_IF_GENES.cell(1, 0): 2, WHAT_IF_GENES.cell(1, 1): 5})
+    opened.enter({WHAT_IF_GENES.cell(1, 2): 5})
+    assert numbers_in(opened, DRAWN, CENTRE) == 0
+    told = str(opened.value(Area(GRASP, grasp_sheet.MESSAGE_ROW, 0)))
+    assert told.startswith("The grasp is not drawn: Magnets Index 2: this index a second time")
+
+
+def test_a_picture_says_where_something_lies_outside(opened):
+    """A place, a corner or the centroid beyond the axes; within them it says nothing."""
+    said = Area(GRASP, grasp_sheet.MESSAGE_ROW, 0)
+    corner = Area(OPTION_SPACE, FIRST_LOCATION_ROW, KINDS[0].column)
+    for place in (corner, "CentroidX", Area(OPTION_SPACE, FIRST_LOCATION_ROW, KINDS[1].column + 1)):
+        assert opened.value(said) == ""
+        for value in (5000.0, -5000.0):
+            opened.enter({place: value})
+            assert str(opened.value(said)).startswith("Places, corners or the centroid lie outside")
+        opened.undo()
 
 
 def test_grasp_pictures_follow_a_typed_diameter(opened):

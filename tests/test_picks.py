@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -144,6 +145,26 @@ def test_somebodys_formula_on_the_card_is_read_by_its_value(
     for command in (lambda: run(book, "--in-place"), lambda: new(export, book)):
         assert command() == 3
         assert "a formula without a stored value" in capsys.readouterr().err
+
+
+def test_somebodys_formula_on_the_card_is_named_before_it_is_lost(
+    book: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its value would stay, but not the formula; ours may be replaced by ours."""
+    opened = openpyxl.load_workbook(book)
+    cell = cell_of(opened, "WhatIf")
+    where = f"GA!{cell.coordinate}"
+    edit(book, typed("WhatIf", "=$E$9"))
+    with zipfile.ZipFile(book) as parts:
+        content = {name: parts.read(name) for name in parts.namelist()}
+    sheet = next(name for name, data in content.items() if b"<f>$E$9</f>" in data)
+    content[sheet] = content[sheet].replace(b"<f>$E$9</f><v></v>", b"<f>$E$9</f><v>2</v>")
+    content[sheet] = content[sheet].replace(b"<f>$E$9</f><v />", b"<f>$E$9</f><v>2</v>")
+    with zipfile.ZipFile(book, "w") as parts:
+        for name, data in content.items():
+            parts.writestr(name, data)
+    assert run(book, "--in-place") == 3
+    assert f"the formulas in {where}" in capsys.readouterr().err
 
 
 # --- the pick ---

@@ -19,7 +19,8 @@ from openpyxl.chart import BarChart
 from openpyxl.comments import Comment
 
 from grasp_xl.cli.program import main
-from grasp_xl.workbook.saving import refuse_edited
+from grasp_xl.errors import OutputError
+from grasp_xl.workbook.saving import save
 from grasp_xl.workbook.stamp import is_untouched
 
 Edit = Callable[[openpyxl.Workbook], object]
@@ -270,7 +271,43 @@ def test_a_file_that_was_never_ours_needs_force(export: Path, content: bytes) ->
     assert run(export, "-o", output) == 3
     assert main(["new", str(export), "-o", str(output)]) == 3
     assert output.read_bytes() == content
-    refuse_edited(output, force=True)
+    assert run(export, "-o", output, "--force") == 0
+
+
+def test_sheets_of_others_are_named_before_and_after_they_are_replaced(
+    export: Path, book: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Refused with their names; with --force a warning says that they are lost, also in place."""
+    assert run(export, "-o", book) == 0
+    capsys.readouterr()
+    edit(book, lambda opened: opened.create_sheet("My notes"))
+    edited = book.read_bytes()
+    for words in ((export, "-o", book), (book, "--in-place")):
+        book.write_bytes(edited)
+        assert run(*words) == 3
+        assert "the sheet 'My notes'" in capsys.readouterr().err
+        assert book.read_bytes() == edited
+        assert main(["run", *map(str, words), "--force", "--generations", "9", "--no-prove"]) == 0
+        told = capsys.readouterr().err
+        assert "found the sheet 'My notes' before it was replaced" in told
+        assert "as --force was given, that is lost" in told
+
+
+def test_a_history_that_cannot_be_written_does_not_hide_the_workbook(
+    export: Path, book: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The workbook is complete by then, and the message says so."""
+    history = export.with_name("history.csv")
+
+    def full(content: bytes, target: Path) -> None:
+        if target == history:
+            raise OutputError(f"{target} cannot be written: the disk is full.")
+        save(content, target)
+
+    monkeypatch.setattr("grasp_xl.commands.run.save", full)
+    assert run(export, "-o", book, "--history", history) == 3
+    assert f"The workbook {book} is written." in capsys.readouterr().err
+    assert is_untouched(book)
 
 
 def test_any_changed_part_breaks_the_mark(book: Path) -> None:

@@ -132,7 +132,11 @@ def _option(name: str, parser: Callable[[str], Any], metavar: str, told: str) ->
 
 
 File = Annotated[
-    Path, typer.Argument(help="Workbook: an exported option-space sheet, or a full workbook.")
+    Path,
+    typer.Argument(
+        help="Workbook: an exported option-space sheet, or a full workbook.",
+        readable=False,  # looked at when it is read, with the other things that may be wrong
+    ),
 ]
 Book = Annotated[
     Path,

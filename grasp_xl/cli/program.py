@@ -54,7 +54,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if "--debug" in words:
             raise
         known = _known(error)
-        _tell(known, as_json="--json" in words)
+        try:
+            _tell(known, as_json="--json" in words)
+        except OSError:  # nobody reads it
+            _forget_output()
         return known.exit_code
 
 

@@ -356,7 +356,8 @@ def check(checked: Checked) -> None:
             f"{kind.force_n:g} N, ${kind.price:g} each"
         )
     line(f"part: {space.part.mass_g:,.6g} g, {space.part.weight_n:,.6g} N")
-    line(f"different grasps: {Decimal(checked.search_space):.4e}")
+    number = checked.search_space
+    line(f"different grasps: {Decimal(number):.4e}" if number else "different grasps: 0")
     line(f"FoS of the most elements: {rounded_down(checked.max_fos, FOS_DIGITS):g}")
     for term, floor in checked.floors._asdict().items() if checked.floors else ():
         line(f"no {term} below {floor:,.6g} {UNITS[term]}")

@@ -4,7 +4,7 @@ import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grasp_xl.commands.keeping import held_run
+from grasp_xl.commands.keeping import held_run, replaced
 from grasp_xl.commands.output import Output, now, written_book
 from grasp_xl.commands.preparing import prepare, refuse_infeasible
 from grasp_xl.search.front import Front, OnFront, find_front
@@ -12,7 +12,7 @@ from grasp_xl.search.stop import Interrupt
 from grasp_xl.search.warm import load_exact_search
 from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook.book import read_book
-from grasp_xl.workbook.saving import check_target, refuse_edited, save
+from grasp_xl.workbook.saving import check_target, save
 from grasp_xl.workbook.trade_offs_sheet import TradeOff, TradeOffs
 
 
@@ -83,9 +83,9 @@ def front_file(
     clock, began = time.perf_counter(), now()
     if output:
         check_target(output.path, path, in_place=False, force=output.force)
-        refuse_edited(output.path, force=output.force)
+    lost = replaced(output) if output else []
     book = read_book(path)
-    task = prepare(book, options, stop=interrupt.is_asked)
+    task = prepare(book, options, stop=interrupt.is_asked).warned(lost)
     refuse_infeasible(task, interrupt.is_asked)
     load_exact_search()
     front = find_front(

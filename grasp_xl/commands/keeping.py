@@ -3,12 +3,13 @@
 import re
 from contextlib import suppress
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
 from grasp_xl.chromosome import is_usable
 from grasp_xl.commands.output import Output, not_begun, now, written_book
-from grasp_xl.errors import InfeasibleError, InputError, Problem
+from grasp_xl.errors import InfeasibleError, InputError, OutputError, Problem
 from grasp_xl.search.mutation import random_chromosome
 from grasp_xl.search.result import Result
 from grasp_xl.space import ElementKind, FloatArray
@@ -17,10 +18,11 @@ from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book
 from grasp_xl.workbook.cells import Source
 from grasp_xl.workbook.inputs import changed_inputs, trade_off_rows
-from grasp_xl.workbook.losses import Written, filled_cells, refuse_losses
+from grasp_xl.workbook.losses import Written, filled_cells, losses, sheet_gone
 from grasp_xl.workbook.package import Package
 from grasp_xl.workbook.picker import NO_PICKS
 from grasp_xl.workbook.proved import Proved
+from grasp_xl.workbook.reading import open_source
 from grasp_xl.workbook.reading_run import (
     SavedRun,
     largest_listed,
@@ -29,14 +31,82 @@ from grasp_xl.workbook.reading_run import (
     shown_proof,
     written_children,
 )
+from grasp_xl.workbook.stamp import is_untouched
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs
 from grasp_xl.workbook.writing import export_workbook
 
 
-def refuse_to_lose(output: Output, previous: Book) -> None:
-    """Refuse to replace a workbook that holds something which is not ours, before any search."""
-    if not (output.force or previous.is_untouched):
-        refuse_losses(output.path, previous.source, _as_written(previous))
+def replaced_in_place(output: Output, previous: Book) -> list[Problem]:
+    """Refuse to replace a workbook that holds something which is not ours, before any search.
+
+    Returns
+    -------
+    list of Problem
+        What is lost, where the person wants that.
+
+    Raises
+    ------
+    OutputError
+        Naming everything that would be lost, or the sheet without which that cannot be told.
+    """
+    if previous.is_untouched:
+        return []
+    target, written = output.path, _as_written(previous)
+    gone = sheet_gone(previous.source, written)
+    if gone and not output.force:
+        raise OutputError(
+            f"{target} has no sheet {gone!r} any more, so it cannot be told what else in it is "
+            "not of the last run. Nothing was written.",
+            where=str(target),
+            hint=f"Give that sheet the name {gone!r} again, write to another file with -o, "
+            "or add --force to lose what a run does not write",
+        )
+    lost = [] if gone else losses(previous.source, written)
+    if lost and not output.force:
+        raise OutputError(
+            f"{target} holds what the new workbook would not: {'; '.join(lost)}. "
+            "Nothing was written.",
+            where=str(target),
+            hint="Write to another file with -o, or add --force to lose it",
+        )
+    return _lost(target, lost)
+
+
+def replaced(output: Output) -> list[Problem]:
+    """Refuse to replace another file than the input that is not just as we wrote it.
+
+    Returns
+    -------
+    list of Problem
+        Which sheets of others are lost, where the person wants that.
+
+    Raises
+    ------
+    OutputError
+        Naming the sheets.
+    """
+    target = output.path
+    if not target.exists() or is_untouched(target):
+        return []
+    sheets: list[str] = []
+    with suppress(InputError):
+        sheets = [f"the sheet {name!r}" for name in open_source(target).foreign_sheets]
+    if output.force:
+        return _lost(target, sheets)
+    with_sheets = f", with {', '.join(sheets)}" if sheets else ""
+    raise OutputError(
+        f"{target} exists{with_sheets} and was edited since grasp_xl wrote it (or never was ours), "
+        "so nothing was written.",
+        where=str(target),
+        hint="Add --force to replace it, or name another file with -o",
+    )
+
+
+def _lost(target: Path, lost: list[str]) -> list[Problem]:
+    """Warn of what a file held that is gone."""
+    found = f"{'; '.join(lost)} before it was replaced"
+    hint = "as --force was given, that is lost"
+    return [Problem(str(target), found, "only what grasp_xl writes", hint)] if lost else []
 
 
 def _as_written(book: Book) -> Written:

@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from grasp_xl.chromosome import Chromosome, is_usable
-from grasp_xl.commands.keeping import kept_trade_offs, refuse_to_lose
+from grasp_xl.commands.keeping import kept_trade_offs, replaced, replaced_in_place
 from grasp_xl.commands.output import Output, not_begun, now, written_book
 from grasp_xl.commands.preparing import Active, prepare
 from grasp_xl.errors import InputError, Problem
@@ -12,11 +12,7 @@ from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book, read_previous
 from grasp_xl.workbook.carrying import SetAside, carried
-from grasp_xl.workbook.saving import (
-    check_target,
-    refuse_edited,
-    save,
-)
+from grasp_xl.workbook.saving import check_target, save
 
 
 def make_workbook(
@@ -31,16 +27,14 @@ def make_workbook(
     check_target(output.path, path, in_place=False, force=output.force)
     book = read_book(path)
     previous = _previous(output)
-    stale: list[Problem] = []
     if previous:
         book, stale = _taken_over(book, previous)
     else:
-        refuse_edited(output.path, force=output.force)
+        stale = replaced(output)
     task = prepare(book, options, grasp)
     trade_offs, left_out = kept_trade_offs(previous or book, task)
-    task = replace(task, warnings=(*task.warnings, *stale, *left_out))
-    if previous:
-        refuse_to_lose(output, previous)
+    lost = replaced_in_place(output, previous) if previous else []
+    task = task.warned([*stale, *left_out, *lost])
     content, _ = written_book(task, not_begun(task), book, began, trade_offs=trade_offs)
     save(content, output.path)
     return task

@@ -77,4 +77,4 @@ def given_grasp(space: OptionSpace, grasp: Active) -> Chromosome | None:
 
 def with_floor_warnings(task: Task, least: Terms) -> Task:
     """Warn of goals that lie below what any grasp can have."""
-    return replace(task, warnings=(*task.warnings, *floor_warnings(task.rules, least)))
+    return task.warned(floor_warnings(task.rules, least))

@@ -5,11 +5,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grasp_xl.commands.keeping import kept_trade_offs, refuse_to_lose, saved_run_of
+from grasp_xl.commands.keeping import kept_trade_offs, replaced, replaced_in_place, saved_run_of
 from grasp_xl.commands.output import Output, now, written_book
 from grasp_xl.commands.preparing import Active, prepare, refuse_infeasible, with_floor_warnings
 from grasp_xl.commands.solve import Solved
-from grasp_xl.errors import Problem
+from grasp_xl.errors import OutputError, Problem
 from grasp_xl.search.floors import floors
 from grasp_xl.search.genetic import OnProgress, search
 from grasp_xl.search.result import Result, State
@@ -17,12 +17,7 @@ from grasp_xl.search.stop import Interrupt, StopRule
 from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book
-from grasp_xl.workbook.saving import (
-    check_place,
-    check_target,
-    refuse_edited,
-    save,
-)
+from grasp_xl.workbook.saving import check_place, check_target, save
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -78,20 +73,19 @@ def run_file(
     clock, began = time.perf_counter(), now()
     ask = interrupt or Interrupt()
     check_target(output.path, path, in_place=output.in_place, force=output.force)
-    if not output.in_place:
-        refuse_edited(output.path, force=output.force)
+    lost = [] if output.in_place else replaced(output)
     if output.history:
         check_place(output.history, ".csv", force=output.force, option="--history")
     book = read_book(path)
     task = prepare(book, options, grasp, ask.is_asked)
     saved = saved_run_of(book, task) if go_on else None
-    task = replace(task, warnings=(*task.warnings, *(_gaps(saved.state) if saved else ())))
+    task = task.warned(_gaps(saved.state) if saved else ())
     trade_offs, stale = kept_trade_offs(book, task)
-    task = replace(task, warnings=(*task.warnings, *stale))
+    task = task.warned(stale)
     refuse_infeasible(task, ask.is_asked)
     task = with_floor_warnings(task, floors(task.space, task.rules.requirements))
-    if output.in_place:
-        refuse_to_lose(output, book)
+    lost += replaced_in_place(output, book) if output.in_place else []
+    task = task.warned(lost)
     result = search(
         task.space,
         task.rules,
@@ -107,12 +101,22 @@ def run_file(
     shown = solved.shown if solved else None
     content, _ = written_book(task, result, book, began, proved=shown, trade_offs=trade_offs)
     save(content, output.path)
-    if output.history:
-        save(result.history().to_csv(index=False).encode(), output.history)
+    _save_history(result, output)
     if saved:
         idle = _nothing_asked(book, options, task.generations, saved.state.generation)
-        task = replace(task, warnings=(*task.warnings, *idle))
+        task = task.warned(idle)
     return Ran(task, result, solved, time.perf_counter() - clock)
+
+
+def _save_history(result: Result, output: Output) -> None:
+    """Write the history where one is wanted; an error says that the workbook is written already."""
+    if output.history is None:
+        return
+    try:
+        save(result.history().to_csv(index=False).encode(), output.history)
+    except OutputError as error:
+        message = f"{error.message} The workbook {output.path} is written."
+        raise OutputError(message, where=error.where, hint=error.hint) from error
 
 
 def _nothing_asked(book: Book, options: Parameters, asked: int, done: int) -> list[Problem]:

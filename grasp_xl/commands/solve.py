@@ -4,7 +4,7 @@ import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grasp_xl.commands.keeping import held_run, kept_trade_offs
+from grasp_xl.commands.keeping import held_run, kept_trade_offs, replaced
 from grasp_xl.commands.output import Output, now, written_book
 from grasp_xl.commands.preparing import prepare, with_floor_warnings
 from grasp_xl.errors import InfeasibleError
@@ -20,7 +20,7 @@ from grasp_xl.search.warm import load_exact_search
 from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.proved import Proved, among
-from grasp_xl.workbook.saving import check_target, refuse_edited, save
+from grasp_xl.workbook.saving import check_target, save
 
 FLOOR_SECONDS = 5.0
 """Longest search of ``solve`` for the floors, after the search for the best grasp."""
@@ -110,7 +110,7 @@ def solve_file(
     clock, started = time.perf_counter(), now()
     if output:
         check_target(output.path, path, in_place=False, force=output.force)
-        refuse_edited(output.path, force=output.force)
+    lost = replaced(output) if output else []
     ask = interrupt or Interrupt()
     book = read_book(path)
     load_exact_search()
@@ -121,7 +121,7 @@ def solve_file(
 
     task = prepare(book, options, stop=stop)
     trade_offs, stale = kept_trade_offs(book, task) if output else (None, [])
-    task = replace(task, warnings=(*task.warnings, *stale))
+    task = task.warned([*lost, *stale])
     space, rules = task.space, task.rules
     known = [task.benchmark.chromosome] if task.benchmark.feasible else []
     left = settings.time_limit_s - (time.perf_counter() - began)

@@ -143,6 +143,8 @@ def any_feasible(
 
 
 def _too_weak(space: OptionSpace, requirements: Requirements) -> str:
+    if not any(kind.most for kind in space.kinds):
+        return "No grasp can have an element: # Max. or the places of each kind are 0."
     most = " and ".join(f"{kind.most} {kind.name}" for kind in space.kinds)
     return (
         f"No grasp can reach FoS {requirements.fos:g}: {most} together reach "

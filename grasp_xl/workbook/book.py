@@ -124,10 +124,10 @@ def read_previous(path: Path) -> Book | None:
 
 
 def _book(source: Source, *, stale_genes: bool) -> Book:
-    space = read_option_space(source)
     parameters = read_parameters(source)
     picks = read_picks(source)
     trade_offs = read_trade_offs(source)
+    space = read_option_space(source)  # last: if it cannot be read, all problems are named
 
     def typed(block: Field) -> Chromosome | None:
         if stale_genes and find_block(source, block):

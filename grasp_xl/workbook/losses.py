@@ -12,9 +12,7 @@ import re
 import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from pathlib import Path
 
-from grasp_xl.errors import OutputError
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank, normal, same_formula
 from grasp_xl.workbook.extras import AREA_NAMES, VALIDATIONS, Extra, not_among, read_extras
@@ -82,38 +80,10 @@ class Written:
     same_inputs: bool
 
 
-def refuse_losses(target: Path, source: Source, written: Written) -> None:
-    """Refuse to replace a workbook that holds something which is not ours.
-
-    Parameters
-    ----------
-    target : Path
-    source : Source
-        The workbook to replace.
-    written : Written
-
-    Raises
-    ------
-    OutputError
-        Naming everything that would be lost, or the sheet without which that cannot be told.
-    """
-    gone = [name for name in written.filled if name not in source.sheets]
-    if gone and GA in written.filled:  # an export's sheet may have any name
-        raise OutputError(
-            f"{target} has no sheet {gone[0]!r} any more, so it cannot be told what else in it is "
-            "not of the last run. Nothing was written.",
-            where=str(target),
-            hint=f"Give that sheet the name {gone[0]!r} again, write to another file with -o, "
-            "or add --force to lose what a run does not write",
-        )
-    lost = losses(source, written)
-    if lost:
-        raise OutputError(
-            f"{target} holds what the new workbook would not: {'; '.join(lost)}. "
-            "Nothing was written.",
-            where=str(target),
-            hint="Write to another file with -o, or add --force to lose it",
-        )
+def sheet_gone(source: Source, written: Written) -> str | None:
+    """Return a sheet of ours without which it cannot be told what else of a workbook is not."""
+    gone = (name for name in written.filled if name not in source.sheets)
+    return next(gone, None) if GA in written.filled else None  # an export's may have any name
 
 
 def losses(source: Source, written: Written) -> list[str]:

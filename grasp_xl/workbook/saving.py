@@ -8,7 +8,6 @@ import tempfile
 from pathlib import Path
 
 from grasp_xl.errors import OutputError, UsageError
-from grasp_xl.workbook.stamp import is_untouched
 
 LOCK_FILES = ("~${name}", ".~lock.{name}#")
 """Files that Excel and LibreOffice keep beside a workbook that they hold open."""
@@ -100,22 +99,6 @@ def check_target(target: Path, source: Path, *, in_place: bool, force: bool) -> 
             f"The output {target} is the input.",
             where=str(target),
             hint="Name another file with -o; only run replaces its input, with --in-place",
-        )
-
-
-def refuse_edited(target: Path, *, force: bool) -> None:
-    """Refuse to replace a file that is not just as we wrote it.
-
-    Raises
-    ------
-    OutputError
-    """
-    if target.exists() and not force and not is_untouched(target):
-        raise OutputError(
-            f"{target} exists and was edited since grasp_xl wrote it (or never was ours), "
-            "so nothing was written.",
-            where=str(target),
-            hint="Add --force to replace it, or name another file with -o",
         )
 
 
