@@ -12,7 +12,7 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import Literal, Self
 
@@ -39,8 +39,9 @@ from grasp_xl.search.exact_prices import (
     Room,
     make_room,
 )
+from grasp_xl.search.exchange import STREAMS, Exchange
 from grasp_xl.search.feasibility import lifting_counts
-from grasp_xl.search.floors import floors
+from grasp_xl.search.floors import floors_by_counts
 from grasp_xl.search.stop import Stop, never
 from grasp_xl.search.symmetry import symmetries
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
@@ -65,6 +66,11 @@ FEW_BATCHES = 64
 
 ROOT_STEPS = 60
 """Steps of the multipliers where they begin."""
+
+FIRST_EXCHANGE = 32
+JUDGED_PER_BATCH = 40_000
+"""Batches before good grasps are looked for by exchange, twice as many each time; and how many
+grasps each stream may judge a batch: about a fifth of the time."""
 
 MAX_OPEN = 4_000_000
 """Open nodes that are kept, about 0.7 GB; a search that needs more stops with a true bound."""
@@ -241,6 +247,8 @@ class _Search:
         self.weights = weigh(space, rules, self.counts, caps=settings.meet_goals)
         self.goal_weights = weigh_goals(space, rules, self.counts if settings.meet_goals else [])
         self.few, self.many = _Frontier(self.elements), _Frontier(self.elements)
+        self.exchange: Exchange | None = None
+        self.next_exchange = FIRST_EXCHANGE
 
     def _affordable(self, counts: tuple[int, ...]) -> bool:
         if not self.settings.meet_goals or "cost" in self.rules.goals.dropped:
@@ -283,6 +291,8 @@ class _Search:
         self._start()
         with _Workers(self) as workers:
             while not (asked_to_stop() or self._close_enough()):
+                if self.batches == self.next_exchange:
+                    self._look_for_good_ones(workers, asked_to_stop)
                 upper, slack = self.upper, self.slack
                 taken, frontier = self._take_batch(workers.batch, upper - slack)
                 if taken == 0:
@@ -301,8 +311,7 @@ class _Search:
     def _start(self) -> None:
         """Open the root nodes: one for each choice of counts, with all elements in the root box."""
         room = make_room(len(self.locations.xyz), self.elements, 1)
-        need = self.rules.requirements
-        floor = self.rules.value(floors(self.space, need)) if self.counts else math.inf
+        floors = floors_by_counts(self.space, self.rules.requirements)
         for number, counts in enumerate(self.counts):
             root = make_nodes((1, 1), self.elements)
             root.choice[:] = number
@@ -310,9 +319,26 @@ class _Search:
                 *(self.locations, self.weights[number], root.boxes[0, 0], self.upper),
                 *(root.u[0, 0, 0], ROOT_STEPS, room),
             )
-            root.bound[:] = max(bound, floor)
+            root.bound[:] = max(bound, self.rules.value(floors[counts]))
             frontier = self.few if sum(counts) <= FEW_ELEMENTS else self.many
             frontier.put(root, np.ones(1, dtype=np.int64), self.upper - self.slack)
+
+    def _look_for_good_ones(self, workers: _Workers, asked_to_stop: Stop) -> None:
+        """Look for better grasps than those that the nodes have given so far."""
+        judged = JUDGED_PER_BATCH * self.next_exchange // 2
+        self.next_exchange *= 2
+        if self.settings.meet_goals or math.isinf(self.rules.scales.moment):
+            return  # its moves keep no goal, and balance the moment
+        if self.exchange is None:
+            self.exchange = Exchange(self.space, self.rules, self.counts)
+        if self.pool.grasps:
+            best = self.pool.grasps[0]
+            self.exchange.know(best.active, best.value)
+        workers.exchange(self.exchange, judged, asked_to_stop)
+        for active in self.exchange.found():
+            value = evaluate(self.space, self.rules, from_active(self.space, active)).value
+            if value < self.upper:
+                self.pool.take(Found(value, active))
 
     def _take_batch(self, batch: Nodes, below: float) -> tuple[int, _Frontier]:
         first = self.batches < FEW_BATCHES or self.few.key < self.many.key
@@ -413,7 +439,17 @@ class _Workers:
                     self.halt,
                 )
 
-        running = [self._threads.submit(work, room) for room in self.rooms]
+        self._wait([self._threads.submit(work, room) for room in self.rooms], asked_to_stop)
+
+    def exchange(self, exchange: Exchange, judged: int, asked_to_stop: Stop) -> None:
+        """Let all streams of an exchange go on."""
+        streams = range(STREAMS)
+        running = [
+            self._threads.submit(exchange.search, stream, judged, self.halt) for stream in streams
+        ]
+        self._wait(running, asked_to_stop)
+
+    def _wait(self, running: Sequence[Future[None]], asked_to_stop: Stop) -> None:
         while wait(running, POLL_SECONDS).not_done:
             self.halt[0] = self.halt[0] or asked_to_stop()
         for thread in running:
