@@ -7,7 +7,8 @@ from pathlib import Path
 from grasp_xl.commands.keeping import held_run, replaced
 from grasp_xl.commands.output import Output, now, written_book
 from grasp_xl.commands.preparing import prepare, refuse_infeasible
-from grasp_xl.search.front import Front, OnFront, find_front
+from grasp_xl.rounding import percent
+from grasp_xl.search.front import CLOSE, Front, OnFront, find_front
 from grasp_xl.search.stop import Interrupt
 from grasp_xl.search.warm import load_exact_search
 from grasp_xl.task import Parameters, Task
@@ -42,7 +43,8 @@ class FoundFront:
         front = self.front
         proved = sum(design.proved for design in front.designs)
         told = (
-            f"{front.proved_sums} of {front.sums} weighted sums minimised with proof, "
+            f"{front.proved_sums} of {front.sums} weighted sums minimised to {percent(CLOSE)} with "
+            "proof, "
             f"{proved} of {len(front.designs)} designs proved"
         )
         if front.complete:

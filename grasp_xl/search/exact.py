@@ -67,10 +67,11 @@ FEW_BATCHES = 64
 ROOT_STEPS = 60
 """Steps of the multipliers where they begin."""
 
-FIRST_EXCHANGE = 32
-JUDGED_PER_BATCH = 40_000
-"""Batches before good grasps are looked for by exchange, twice as many each time; and how many
-grasps each stream may judge a batch: about a fifth of the time."""
+FIRST_EXCHANGE = 64
+JUDGED_PER_BATCH = 10_000
+GAINED, IN_VAIN = 2, 4
+"""Batches before good grasps are looked for by exchange; how many grasps each stream may judge for
+each of these; and how many times more batches go by before the next look."""
 
 MAX_OPEN = 4_000_000
 """Open nodes that are kept, about 0.7 GB; a search that needs more stops with a true bound."""
@@ -247,6 +248,14 @@ class _Search:
         self.weights = weigh(space, rules, self.counts, caps=settings.meet_goals)
         self.goal_weights = weigh_goals(space, rules, self.counts if settings.meet_goals else [])
         self.few, self.many = _Frontier(self.elements), _Frontier(self.elements)
+        scales = rules.scales
+        self.exchanges = (
+            not settings.meet_goals
+            and math.isfinite(scales.moment)
+            and math.isinf(max(scales.deviation, scales.structure))
+        )
+        """Exchange keeps no goal and balances the moment; where both deviation and structure
+        count, the nodes give good grasps as soon."""
         self.exchange: Exchange | None = None
         self.next_exchange = FIRST_EXCHANGE
 
@@ -325,10 +334,10 @@ class _Search:
 
     def _look_for_good_ones(self, workers: _Workers, asked_to_stop: Stop) -> None:
         """Look for better grasps than those that the nodes have given so far."""
-        judged = JUDGED_PER_BATCH * self.next_exchange // 2
-        self.next_exchange *= 2
-        if self.settings.meet_goals or math.isinf(self.rules.scales.moment):
-            return  # its moves keep no goal, and balance the moment
+        judged = JUDGED_PER_BATCH * self.batches
+        self.next_exchange = IN_VAIN * self.batches
+        if not self.exchanges:
+            return
         if self.exchange is None:
             self.exchange = Exchange(self.space, self.rules, self.counts)
         if self.pool.grasps:
@@ -339,6 +348,7 @@ class _Search:
             value = evaluate(self.space, self.rules, from_active(self.space, active)).value
             if value < self.upper:
                 self.pool.take(Found(value, active))
+                self.next_exchange = GAINED * self.batches
 
     def _take_batch(self, batch: Nodes, below: float) -> tuple[int, _Frontier]:
         first = self.batches < FEW_BATCHES or self.few.key < self.many.key

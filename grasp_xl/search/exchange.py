@@ -165,11 +165,15 @@ def descend(
     places: IntArray,
     n: int,
     value: float,
+    most: int,
     halt: IntArray,
 ) -> tuple[float, int]:
-    """Move elements, and pairs of them in turn, until no move gains anything."""
+    """Move elements, and pairs of them in turn, until no move gains anything.
+
+    It ends as well once so many grasps are judged, or told to halt.
+    """
     judged = idle = turn = 0
-    while idle < n * n and not halt[0]:
+    while idle < n * n and judged < most and not halt[0]:
         i, j = turn // n % n, turn % n
         turn += 1
         if i == j:
@@ -241,7 +245,7 @@ def exchange(
         if not start(t, kept, choice, kinds, places, rng):
             continue
         value = value_below(t, genes, places, n, np.inf)
-        value, more = descend(t, cells, genes, kinds, places, n, value, halt)
+        value, more = descend(t, cells, genes, kinds, places, n, value, judged, halt)
         judged -= more
         if value < kept.values[choice]:
             kept.values[choice] = value

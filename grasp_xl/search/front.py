@@ -38,6 +38,10 @@ MORE_EFFORT = 4
 Counted, not timed, so that the result does not depend on how fast a machine is.
 """
 
+CLOSE = 1e-3
+"""Relative gap at which a weighted sum counts as minimised: where a few elements of many places
+balance the part in very many ways, some come nearer to a moment of 0 than anybody needs."""
+
 LEAST_CAP = 1e-9
 """A criterion of 0 is capped there, since values are divided by caps."""
 
@@ -53,7 +57,7 @@ class Design:
         Whether it is proved that no grasp of all dominates it.
     weights : Terms or None
         Weights of the normalised criteria, 1 in sum, of whose weighted sum it is the proved
-        optimum; None if no search has proved any.
+        optimum, to ``CLOSE``; None if no search has proved any.
     """
 
     grasp: Grasp
@@ -70,7 +74,7 @@ class Front:
     designs : tuple of Design
         None dominates another; by divergence.
     sums, proved_sums : int
-        Weighted sums that were to be minimised, and that are.
+        Weighted sums that were to be minimised, and that are, with proof to ``CLOSE``.
     seconds : float
     """
 
@@ -310,11 +314,11 @@ class _Finder:
         best = min(self._met, key=lambda met: rules.value(met.grasp.terms), default=None)
         proof = self._solve(rules, [best.grasp.chromosome] if best else [], ExactSettings(), effort)
         found = [_Met(self._judged(each.chromosome)) for each in proof.designs]
-        if proof.status == "optimal":
+        if proof.gap is not None and proof.gap <= CLOSE:
             self._open.remove(weights)
             for met in found:
                 met.optimal_for.append(weights)
-                met.proved = all(weights)
+                met.proved = all(weights) and proof.status == "optimal"
         self._take(found)
         self._tell()
 

@@ -53,8 +53,8 @@ TOLD_ROW = 1
 EXPLAINED_ROW = TABLE_ROW - 1
 EXPLAINED = (
     "proved: no grasp of all is better in one criterion and no worse in the others.  found: no "
-    "such grasp is known.  Weights: no grasp of all has a lower sum of weight times normalised "
-    "value."
+    "such grasp is known.  Weights: no grasp of all has a sum of weight times normalised value "
+    "that is lower by more than 0.1 %."
 )
 HINT = PickHint(
     "Type a No. of the list: the two rows below and the What-if card show that design. Empty: the "
