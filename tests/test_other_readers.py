@@ -15,10 +15,11 @@ from live_cases import random_case
 from office import lack
 from python_calamine import CalamineWorkbook
 
+from grasp_xl.commands.front import front_file
 from grasp_xl.commands.new import make_workbook
 from grasp_xl.commands.output import Output
 from grasp_xl.commands.run import run_file
-from grasp_xl.search.stop import Generations
+from grasp_xl.search.stop import Generations, Interrupt
 from grasp_xl.task import Parameters
 from grasp_xl.workbook.reading import open_source, read_option_space
 from grasp_xl.workbook.writing import export_workbook
@@ -27,7 +28,7 @@ HERE = Path(__file__).parent
 SAMPLES = HERE.parent / "workbooks"
 PACKAGES = HERE / "node_modules"
 INSTALL = "run: npm ci --prefix tests"
-BOOKS = ("export", "new", "result", "one kind", "wide")
+BOOKS = ("export", "new", "result", "trade-offs", "one kind", "wide")
 NOT_AVAILABLE = "#N/A"
 
 Cells = dict[tuple[str, int, int], object]
@@ -57,6 +58,9 @@ def books(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     make_workbook(paths["export"], Parameters(), Output(paths["new"]))
     output = Output(paths["result"])
     run_file(paths["new"], Parameters(), output, stop=lambda _: [Generations(500)])
+    front = Output(paths["trade-offs"])
+    sample = SAMPLES / "bracket.xlsx"
+    front_file(sample, Parameters(), front, grid=2, time_limit_s=20, interrupt=Interrupt())
     for name, seed in (("one kind", 3), ("wide", 27)):
         paths[name].write_bytes(random_case(seed).workbook(generations=0))
     return paths

@@ -255,6 +255,22 @@ def test_ctrl_c_during_the_proof_keeps_the_run_and_the_bound(hard: Path, told: A
     assert log["Stop reason"] == "generations"
 
 
+def test_a_run_is_kept_whatever_becomes_of_its_proof(
+    bracket: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A fault of the exact search is not hidden, but the genetic result is written before."""
+
+    def fails(*_: object, **__: object) -> None:
+        raise MemoryError("no room for the nodes")
+
+    monkeypatch.setattr("grasp_xl.commands.solve.prove", fails)
+    book = bracket.with_name("kept.xlsx")
+    with pytest.raises(MemoryError):
+        main(["run", str(bracket), "-o", str(book), "--generations", "50", "--quiet"])
+    assert logged(book)["Generations done"] == 50
+    assert title(book) == "Not proved"
+
+
 def test_a_second_ctrl_c_gives_only_the_proof_up(
     told: Any, bracket: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

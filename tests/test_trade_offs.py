@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import shutil
 import zipfile
@@ -15,6 +16,7 @@ from bad_workbooks import tiny_export
 from office import Office, run_office
 
 from grasp_xl.cli.program import main
+from grasp_xl.search import stop
 from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.layout import TABLE_ROW, TRADE_OFFS, Area, area_of
 from grasp_xl.workbook.picker import GENE_COLUMN, PICK_ROW
@@ -81,6 +83,25 @@ def test_the_sheet_lists_what_the_json_has(made: Path, capsys: pytest.CaptureFix
         )
         weights = list((design["weights"] or dict.fromkeys("abcd")).values())
         assert list(row[25:29]) == pytest.approx(weights)
+
+
+def test_ctrl_c_writes_what_is_known(
+    made: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Interrupted as soon as it begins, front lists the benchmark, says so, and exits with 130."""
+
+    @contextlib.contextmanager
+    def interrupted() -> Iterator[stop.Interrupt]:
+        yield stop.Interrupt(asked=True)
+
+    monkeypatch.setattr(stop, "stop_on_ctrl_c", interrupted)
+    book = made.with_name("interrupted.xlsx")
+    sample = made.with_name("tiny-result.xlsx")
+    assert main(["front", str(sample), "-o", str(book), "--json"]) == 130
+    told = json.loads(capsys.readouterr().out)
+    assert (told["interrupted"], told["complete"], told["proved_sums"]) == (True, False, 0)
+    assert [row[1] for row in listed(book)] == ["found"] * len(told["designs"]) != []
+    assert "interrupted" in str(openpyxl.load_workbook(book)[TRADE_OFFS]["A2"].value)
 
 
 def test_the_weights_are_printed_on_a_page_of_their_own(made: Path) -> None:

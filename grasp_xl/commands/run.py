@@ -97,11 +97,14 @@ def run_file(
     )
     if saved and result.state.generation == saved.state.generation:
         result = replace(result, matrix=saved.matrix, children=saved.children)
-    solved = prove(task, result) if prove else None
-    shown = solved.shown if solved else None
-    content, _ = written_book(task, result, book, began, proved=shown, trade_offs=trade_offs)
-    save(content, output.path)
-    _save_history(result, output)
+    solved = None
+    try:
+        solved = prove(task, result) if prove else None
+    finally:  # what the run found is kept, whatever becomes of the proof
+        shown = solved.shown if solved else None
+        content, _ = written_book(task, result, book, began, proved=shown, trade_offs=trade_offs)
+        save(content, output.path)
+        _save_history(result, output)
     if saved:
         idle = _nothing_asked(book, options, task.generations, saved.state.generation)
         task = task.warned(idle)
