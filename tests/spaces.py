@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import combinations, product
+
 import numpy as np
 from hypothesis import strategies as st
 
-from grasp_xl.chromosome import Chromosome
+from grasp_xl.chromosome import Chromosome, from_active
+from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Criterion, Goals, Requirements, Rules, Terms
 from grasp_xl.space import ElementKind, OptionSpace, Part, frozen
 
@@ -134,3 +137,20 @@ def any_rules(draw: st.DrawFn) -> Rules:
         clearance_mm=draw(st.sampled_from([10.0, 25.0, 46.0])),
         moment_arm=draw(st.sampled_from(["3d", "plan"])),
     )
+
+
+def every_grasp(space: OptionSpace, rules: Rules) -> list[Grasp]:
+    """Judge every grasp of an option space, feasible or not."""
+    choices = [
+        [
+            chosen
+            for count in range(each.count_min, each.most + 1)
+            for chosen in combinations(range(1, each.total + 1), count)
+        ]
+        for each in space.kinds
+    ]
+    return [
+        evaluate(space, rules, from_active(space, active))
+        for active in product(*choices)
+        if any(active)
+    ]

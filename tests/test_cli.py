@@ -21,6 +21,7 @@ import openpyxl
 import pytest
 import typer
 from bad_workbooks import tiny_export
+from editing import files
 from python_calamine import CalamineWorkbook
 
 from grasp_xl import __main__, __version__
@@ -68,11 +69,6 @@ def export(tmp_path: Path) -> Path:
     path = tmp_path / "tiny.xlsx"
     tiny_export(path)
     return path
-
-
-def files(folder: Path) -> list[str]:
-    """Names of all files in a folder."""
-    return sorted(file.name for file in folder.iterdir())
 
 
 class Told:

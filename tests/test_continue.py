@@ -13,6 +13,7 @@ from typing import Any
 import openpyxl
 import pytest
 from bad_workbooks import tiny_export
+from editing import cell_of, edit, files
 from python_calamine import CalamineWorkbook
 from spaces import plate
 
@@ -62,11 +63,6 @@ def run(file: Path, *words: object) -> int:
     return main(["run", str(file), "--quiet", *map(str, words)])
 
 
-def files(folder: Path) -> list[str]:
-    """Names of all files in a folder."""
-    return sorted(file.name for file in folder.iterdir())
-
-
 def in_parts(file: Path, limits: list[int], *options: str, in_place: bool = False) -> Path:
     """Run to each of the limits, each time going on from the last workbook."""
     before = file
@@ -93,19 +89,6 @@ def content(book: Path) -> dict[str, list[list[Any]]]:
     for name in ("Run Log", "Fitness Table"):
         sheets[name] = [row for row in sheets[name] if row[0] not in OF_THIS_RUN]
     return sheets
-
-
-def edit(book: Path, change: Callable[[openpyxl.Workbook], object]) -> None:
-    """Change a workbook with openpyxl, which loses all cached values of formulas."""
-    opened = openpyxl.load_workbook(book)
-    change(opened)
-    opened.save(book)
-
-
-def cell_of(opened: openpyxl.Workbook, name: str, row: int = 0, column: int = 0) -> Any:
-    """Find a cell of a named area."""
-    sheet, cells = opened.defined_names[name].attr_text.replace("$", "").split("!")
-    return opened[sheet.strip("'")][cells.split(":")[0]].offset(row, column)
 
 
 def small_lists(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 import zipfile
-from collections.abc import Iterator
 from pathlib import Path
 
 import openpyxl
 import pytest
 from bad_workbooks import tiny_export
-from office import Office, run_office
+from office import Office
 from openpyxl.formula.translate import Translator
 from openpyxl.worksheet.worksheet import Worksheet
 
@@ -37,12 +36,6 @@ def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Find designs of many costs."""
     goals = ("--goals", "100,9000,90,900", "--fos", "1")
     return run(tmp_path_factory.mktemp("many"), "--no-elitism", *goals)
-
-
-@pytest.fixture(scope="module")
-def office(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Office]:
-    """Keep one LibreOffice for all tests."""
-    yield from run_office(tmp_path_factory.mktemp("office"))
 
 
 def sheet_of(path: Path) -> Worksheet:

@@ -7,16 +7,15 @@ import os
 import subprocess
 import sys
 from collections import Counter
-from itertools import combinations, product
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from spaces import any_rules, option_spaces, plate, some_rules
+from spaces import any_rules, every_grasp, option_spaces, plate, some_rules
 
 from grasp_xl.chromosome import from_active
-from grasp_xl.grasp import Grasp, evaluate
+from grasp_xl.grasp import Grasp
 from grasp_xl.rules import Rules
 from grasp_xl.search.exact import ExactSettings, solve
 from grasp_xl.search.exact_model import grow_tree
@@ -29,20 +28,8 @@ from grasp_xl.space import ElementKind, OptionSpace, Part, frozen
 
 def all_grasps(space: OptionSpace, rules: Rules) -> list[Grasp]:
     """Judge every feasible grasp of an option space, best first."""
-    choices = [
-        [
-            chosen
-            for count in range(kind.count_min, kind.most + 1)
-            for chosen in combinations(range(1, kind.total + 1), count)
-        ]
-        for kind in space.kinds
-    ]
-    grasps = [
-        evaluate(space, rules, from_active(space, active))
-        for active in product(*choices)
-        if any(active)
-    ]
-    return sorted((g for g in grasps if g.feasible), key=lambda grasp: grasp.value)
+    feasible = (grasp for grasp in every_grasp(space, rules) if grasp.feasible)
+    return sorted(feasible, key=lambda grasp: grasp.value)
 
 
 def distinct(space: OptionSpace, grasps: list[Grasp]) -> list[Grasp]:

@@ -16,7 +16,7 @@ import numpy as np
 import openpyxl
 import pytest
 from live_cases import CRITERIA, PLACES, Case, random_case
-from office import CellValue, Office, Place, need_arial, run_office
+from office import CellValue, Office, Place, need_arial
 from shapely import LineString, Point, Polygon
 from spaces import kind as element_kind
 from spaces import rectangle
@@ -183,12 +183,6 @@ def sample_result(name: str, folder: Path) -> Path:
         prove=lambda task, result: prove_run(task, result, path, 10.0),
     )
     return path
-
-
-@pytest.fixture(scope="session")
-def office(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Office]:
-    """Keep one LibreOffice for all tests."""
-    yield from run_office(tmp_path_factory.mktemp("office"))
 
 
 @pytest.fixture(scope="session")

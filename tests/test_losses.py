@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 import shutil
 import zipfile
-from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import openpyxl
 import pytest
 from bad_workbooks import tiny_export
-from office import Office, run_office
+from editing import Edit, edit, in_cell
+from office import Office
 from openpyxl.chart import BarChart
 from openpyxl.comments import Comment
 from openpyxl.formatting.rule import CellIsRule
@@ -21,8 +21,6 @@ from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.table import Table
 
 from grasp_xl.cli.program import main
-
-Edit = Callable[[openpyxl.Workbook], object]
 
 
 @pytest.fixture(scope="module")
@@ -41,28 +39,9 @@ def book(result: Path, tmp_path: Path) -> Path:
     return Path(shutil.copy(result, tmp_path / "out.xlsx"))
 
 
-@pytest.fixture(scope="module")
-def office(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Office]:
-    """Keep one LibreOffice for all tests."""
-    yield from run_office(tmp_path_factory.mktemp("office"))
-
-
 def run_in_place(book: Path) -> int:
     """Run ten generations."""
     return main(["run", str(book), "--in-place", "--generations", "10", "--quiet"])
-
-
-def edit(book: Path, *changes: Edit) -> None:
-    """Change a workbook with openpyxl, which loses all cached values of formulas."""
-    opened = openpyxl.load_workbook(book)
-    for change in changes:
-        change(opened)
-    opened.save(book)
-
-
-def in_cell(sheet: str, cell: str, value: object) -> Edit:
-    """Make an edit of a cell."""
-    return lambda opened: opened[sheet].__setitem__(cell, value)
 
 
 def set_on(sheet: str, path: str, value: object = 1) -> Edit:

@@ -11,6 +11,7 @@ from typing import Any
 import openpyxl
 import pytest
 from bad_workbooks import Value, tiny_export
+from editing import cell_of
 
 from grasp_xl.chromosome import Chromosome, is_usable
 from grasp_xl.cli.program import main
@@ -52,12 +53,6 @@ def export(path: Path, change: Mapping[str, Value] | None = None) -> Path:
 def new(file: Path, book: Path, *words: str) -> int:
     """Make a workbook."""
     return main(["new", str(file), "-o", str(book), *words])
-
-
-def cell_of(opened: openpyxl.Workbook, name: str, row: int = 0, column: int = 0) -> Any:
-    """Find a cell of a named area."""
-    sheet, cells = opened.defined_names[name].attr_text.replace("$", "").split("!")
-    return opened[sheet.strip("'")][cells.split(":")[0]].offset(row, column)
 
 
 def type_into(book: Path, values: Mapping[str, object]) -> None:

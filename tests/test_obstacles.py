@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import combinations, product
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from spaces import any_rules, kind, option_spaces, plate, rectangle, some_rules
+from spaces import any_rules, every_grasp, kind, option_spaces, plate, rectangle, some_rules
 
 from grasp_xl.chromosome import from_active
 from grasp_xl.errors import InfeasibleError
-from grasp_xl.grasp import Grasp, evaluate
+from grasp_xl.grasp import evaluate
 from grasp_xl.rounding import rounded_down, rounded_up
-from grasp_xl.rules import SLACK, TERMS, Requirements, Rules
+from grasp_xl.rules import SLACK, TERMS, Requirements
 from grasp_xl.search.exact import ExactSettings, solve
 from grasp_xl.search.floors import floors
 from grasp_xl.search.obstacles import any_feasible, least_counts, smallest_changes
@@ -24,23 +23,6 @@ from grasp_xl.search.unmet_goals import floor_warnings, why_none_meets_all
 from grasp_xl.space import OptionSpace, Part, frozen
 
 P1_CENTROID = (0.032786, 0.006258, 45.06829)
-
-
-def every_grasp(space: OptionSpace, rules: Rules) -> list[Grasp]:
-    """Judge every grasp of an option space, feasible or not."""
-    choices = [
-        [
-            chosen
-            for count in range(each.count_min, each.most + 1)
-            for chosen in combinations(range(1, each.total + 1), count)
-        ]
-        for each in space.kinds
-    ]
-    return [
-        evaluate(space, rules, from_active(space, active))
-        for active in product(*choices)
-        if any(active)
-    ]
 
 
 def with_kind(space: OptionSpace, number: int, **values: object) -> OptionSpace:

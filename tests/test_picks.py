@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import shutil
 import zipfile
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import openpyxl
 import pytest
 from bad_workbooks import tiny_export
+from editing import cell_of, edit, typed
 
 from grasp_xl.cli.program import main
 from grasp_xl.workbook.book import Book, read_book
@@ -38,24 +37,6 @@ def book(result: Path, tmp_path: Path) -> Path:
 def run(file: Path, *words: object) -> int:
     """Run three hundred generations."""
     return main(["run", str(file), "--generations", "300", "--quiet", *map(str, words)])
-
-
-def edit(book: Path, change: Callable[[openpyxl.Workbook], object]) -> None:
-    """Change a workbook with openpyxl, which loses all cached values of formulas."""
-    opened = openpyxl.load_workbook(book)
-    change(opened)
-    opened.save(book)
-
-
-def cell_of(opened: openpyxl.Workbook, name: str, row: int = 0, column: int = 0) -> Any:
-    """Find a cell of a named area."""
-    sheet, cells = opened.defined_names[name].attr_text.replace("$", "").split("!")
-    return opened[sheet.strip("'")][cells.split(":")[0]].offset(row, column)
-
-
-def typed(name: str, value: object, row: int = 0, column: int = 0) -> Callable[[Any], None]:
-    """Make an edit of a named cell."""
-    return lambda opened: setattr(cell_of(opened, name, row, column), "value", value)
 
 
 def design(book: Path, number: int) -> Genes:

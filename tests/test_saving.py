@@ -15,6 +15,7 @@ from typing import Any
 import openpyxl
 import pytest
 from bad_workbooks import Raw, tiny_export
+from editing import Edit, edit, files, in_cell, typed
 from openpyxl.chart import BarChart
 from openpyxl.comments import Comment
 
@@ -22,8 +23,6 @@ from grasp_xl.cli.program import main
 from grasp_xl.errors import OutputError
 from grasp_xl.workbook.saving import save
 from grasp_xl.workbook.stamp import is_untouched
-
-Edit = Callable[[openpyxl.Workbook], object]
 
 
 @pytest.fixture
@@ -52,34 +51,6 @@ def book(result: Path, tmp_path: Path) -> Path:
 def run(file: Path, *words: object) -> int:
     """Run ten generations."""
     return main(["run", str(file), "--generations", "10", "--quiet", *map(str, words)])
-
-
-def files(folder: Path) -> list[str]:
-    """Names of all files in a folder."""
-    return sorted(file.name for file in folder.iterdir())
-
-
-def edit(book: Path, change: Edit) -> None:
-    """Change a workbook with openpyxl, which loses all cached values of formulas."""
-    opened = openpyxl.load_workbook(book)
-    change(opened)
-    opened.save(book)
-
-
-def typed(name: str, value: object, row: int = 0, column: int = 0) -> Edit:
-    """Make an edit of a named cell."""
-
-    def change(opened: openpyxl.Workbook) -> None:
-        sheet, cells = opened.defined_names[name].attr_text.replace("$", "").split("!")
-        first = opened[sheet.strip("'")][cells.split(":")[0]]
-        first.offset(row, column).value = value  # type: ignore[union-attr]
-
-    return change
-
-
-def in_cell(sheet: str, cell: str, value: object) -> Edit:
-    """Make an edit of any cell."""
-    return lambda opened: opened[sheet].__setitem__(cell, value)
 
 
 # --- targets ---

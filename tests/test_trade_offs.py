@@ -6,14 +6,14 @@ import contextlib
 import json
 import shutil
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import openpyxl
 import pytest
 from bad_workbooks import tiny_export
-from office import Office, run_office
+from editing import edit
+from office import Office
 
 from grasp_xl.cli.program import main
 from grasp_xl.search import stop
@@ -44,22 +44,9 @@ def book(made: Path, tmp_path: Path) -> Path:
     return Path(shutil.copy(made, tmp_path / "out.xlsx"))
 
 
-@pytest.fixture(scope="module")
-def office(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Office]:
-    """Keep one LibreOffice for all tests."""
-    yield from run_office(tmp_path_factory.mktemp("office"))
-
-
 def run_in_place(book: Path, *words: str) -> int:
     """Run ten generations."""
     return main(["run", str(book), "--in-place", "--generations", "10", "--quiet", *words])
-
-
-def edit(book: Path, change: Callable[[Any], object]) -> None:
-    """Change a workbook with openpyxl, which loses all cached values of formulas."""
-    opened = openpyxl.load_workbook(book)
-    change(opened)
-    opened.save(book)
 
 
 def listed(book: Path) -> list[tuple[object, ...]]:
