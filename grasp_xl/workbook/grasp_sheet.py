@@ -463,12 +463,13 @@ def _to_scale(chart: Any, frame: Frame, title: str) -> None:  # noqa: ANN401 (un
 
 
 def frame_of(space: OptionSpace) -> Frame:
-    """Frame all elements at all places and both polygons, as large as the plot area takes.
+    """Frame elements at all places, polygons and centroid, as large as the plot area takes.
 
     The axes begin at a multiple of their tick distance, so that they are labelled by round
     numbers, and end where the part or an element does.
     """
     corners = [space.approximation_polygon_mm[:, :2], space.ideal_polygon_mm[:, :2]]
+    corners += [space.part.centroid_mm[None, :2]]
     for number, kind in enumerate(space.kinds):
         radius = _diameter_mm(space, number) / 2
         corners += [kind.footprints_mm[:, :2] + side for side in (-radius, radius)]

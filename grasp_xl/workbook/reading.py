@@ -73,9 +73,9 @@ def read_option_space(source: Source) -> OptionSpace:
     Raises
     ------
     InputError
-        With every problem found.
+        If it cannot be used, with every problem found in the workbook by then.
     """
-    sheet = find_sheet(source)
+    sheet, before = find_sheet(source), len(source.problems)
     part = _part(source, sheet)
     starts = [_list_start(source, sheet, labels) for labels in layout.KINDS]
     lists = [
@@ -88,7 +88,8 @@ def read_option_space(source: Source) -> OptionSpace:
     ]
     _check_lists(source, sheet, starts, lists)
     polygon = _polygon(source, sheet, part)
-    source.finish()
+    if len(source.problems) > before:
+        source.finish()
     if part is None or polygon is None or None in kinds:
         raise AssertionError("finish() has raised what is missing")
     space = OptionSpace(part, tuple(kind for kind in kinds if kind), *polygon)
