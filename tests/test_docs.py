@@ -26,9 +26,17 @@ from grasp_xl.grasp import evaluate
 from grasp_xl.rules import Goals, Requirements, Rules, Terms
 from grasp_xl.search import stop
 from grasp_xl.search.floors import search_space
-from grasp_xl.space import GRAVITY_M_S2, ElementKind, OptionSpace, Part, frozen, scaled_polygon
+from grasp_xl.space import (
+    GRAVITY_M_S2,
+    MAX_COUNT,
+    ElementKind,
+    OptionSpace,
+    Part,
+    frozen,
+    scaled_polygon,
+)
 from grasp_xl.task import DEFAULTS, Parameters
-from grasp_xl.workbook import cells, layout, package, reading, run_log
+from grasp_xl.workbook import cells, layout, package, reading_places, reading_polygon, run_log
 from grasp_xl.workbook.book import read_book
 
 ROOT = Path(__file__).parents[1]
@@ -262,9 +270,9 @@ def test_defaults_of_the_parameters_are_right() -> None:
 @pytest.mark.parametrize(
     "limit",
     [
-        f"0 to {reading.MAX_COUNT}",
-        f"{reading.MAX_FOOTPRINTS:,}",
-        f"{reading.MAX_VERTICES:,}",
+        f"0 to {MAX_COUNT}",
+        f"{reading_places.MAX_FOOTPRINTS:,}",
+        f"{reading_polygon.MAX_VERTICES:,}",
         f"2 to {layout.MAX_CHILDREN}",
         f"0 to {layout.MAX_GENERATIONS:,}",
         f"0 to {layout.MAX_SEED:,}",

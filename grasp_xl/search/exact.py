@@ -22,23 +22,12 @@ from grasp_xl.adding import plain_sum
 from grasp_xl.chromosome import Chromosome, from_active
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import SLACK, Rules
-from grasp_xl.search.exact_bound import (
-    node_bound,
-)
-from grasp_xl.search.exact_kernel import (
-    Nodes,
-    expand,
-    make_nodes,
-    put_children,
-    take_batch,
-)
+from grasp_xl.search.exact_bound import node_bound
+from grasp_xl.search.exact_kernel import Nodes, expand, make_nodes, put_children, take_batch
 from grasp_xl.search.exact_leaf import ENTRIES
 from grasp_xl.search.exact_model import locate, weigh, weigh_goals
 from grasp_xl.search.exact_pool import Found, Pool
-from grasp_xl.search.exact_prices import (
-    Room,
-    make_room,
-)
+from grasp_xl.search.exact_prices import Room, make_room
 from grasp_xl.search.exchange import STREAMS, Exchange
 from grasp_xl.search.feasibility import lifting_counts
 from grasp_xl.search.floors import floors_by_counts

@@ -11,22 +11,11 @@ import numpy as np
 
 from grasp_xl.compiled import allocation_free, inner
 from grasp_xl.kernels import RecordArray
-from grasp_xl.search.exact_bound import (
-    node_bound,
-)
-from grasp_xl.search.exact_cuts import (
-    MULTIPLIERS,
-)
+from grasp_xl.search.exact_bound import node_bound
+from grasp_xl.search.exact_cuts import MULTIPLIERS
 from grasp_xl.search.exact_leaf import BUDGET, ENTRIES, enumerate_node
 from grasp_xl.search.exact_model import Locations
-from grasp_xl.search.exact_prices import (
-    Room,
-    Truss,
-    Weights,
-    group_end,
-    is_barred,
-    truss_of,
-)
+from grasp_xl.search.exact_prices import Room, Truss, Weights, group_end, is_barred, truss_of
 from grasp_xl.space import FloatArray, IntArray
 
 STEPS = 6

@@ -11,10 +11,7 @@ import numpy as np
 
 from grasp_xl.compiled import inner
 from grasp_xl.rules import SLACK
-from grasp_xl.search.exact_bound import (
-    gap,
-    shortest_truss,
-)
+from grasp_xl.search.exact_bound import gap, shortest_truss
 from grasp_xl.search.exact_model import CUPS, MAGNETS, Locations
 from grasp_xl.search.exact_prices import (
     Room,

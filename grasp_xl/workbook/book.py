@@ -18,12 +18,7 @@ from grasp_xl.workbook.inputs import genes_of_text, genes_text
 from grasp_xl.workbook.layout import Area, Field
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK, Picker, Picks
 from grasp_xl.workbook.reading import open_source, read_option_space
-from grasp_xl.workbook.reading_ga import (
-    find_block,
-    find_ga_sheet,
-    read_chromosome,
-    read_parameters,
-)
+from grasp_xl.workbook.reading_ga import find_block, find_ga_sheet, read_chromosome, read_parameters
 from grasp_xl.workbook.reading_pick import read_picks
 from grasp_xl.workbook.reading_run import (
     UNREADABLE,

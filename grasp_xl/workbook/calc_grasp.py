@@ -16,11 +16,7 @@ from grasp_xl.workbook.calc_block import (
     TABLES,
     CalcBlock,
 )
-from grasp_xl.workbook.calc_inputs import (
-    INPUTS_FAULT,
-    INPUTS_USABLE,
-    used,
-)
+from grasp_xl.workbook.calc_inputs import INPUTS_FAULT, INPUTS_USABLE, used
 from grasp_xl.workbook.calc_rules import SLACK, listed
 from grasp_xl.workbook.calc_values import CalcValues
 from grasp_xl.workbook.layout import CALC, KINDS, Area

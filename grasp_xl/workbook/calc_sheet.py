@@ -10,19 +10,10 @@ from __future__ import annotations
 
 from grasp_xl.grasp import Grasp
 from grasp_xl.space import OptionSpace
-from grasp_xl.workbook.calc_block import (
-    BLOCK_COLUMN,
-    TABLES,
-    CalcBlock,
-)
+from grasp_xl.workbook.calc_block import BLOCK_COLUMN, TABLES, CalcBlock
 from grasp_xl.workbook.calc_edges import write_edges
 from grasp_xl.workbook.calc_grasp import block_cells
-from grasp_xl.workbook.calc_inputs import (
-    COLUMNS,
-    FIRST_ROW,
-    INPUT_COLUMN,
-    write_inputs,
-)
+from grasp_xl.workbook.calc_inputs import COLUMNS, FIRST_ROW, INPUT_COLUMN, write_inputs
 from grasp_xl.workbook.layout import CALC, Area, Layout
 from grasp_xl.workbook.pen import CellValue, Pen
 from grasp_xl.workbook.styles import Style

@@ -7,13 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from grasp_xl.chromosome import (
-    BLANK_GENE,
-    UNSET_GENE,
-    Chromosome,
-    index_faults,
-    is_usable,
-)
+from grasp_xl.chromosome import BLANK_GENE, UNSET_GENE, Chromosome, index_faults, is_usable
 from grasp_xl.errors import Problem
 from grasp_xl.space import ElementKind, FloatArray, IntArray, OptionSpace
 

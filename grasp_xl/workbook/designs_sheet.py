@@ -9,13 +9,7 @@ import numpy as np
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.rules import TERMS
 from grasp_xl.search.result import Result, Rows, gene_columns
-from grasp_xl.workbook.layout import (
-    FITNESS_HEADER,
-    KINDS,
-    TABLE_ROW,
-    VALID_DESIGNS,
-    Area,
-)
+from grasp_xl.workbook.layout import FITNESS_HEADER, KINDS, TABLE_ROW, VALID_DESIGNS, Area
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.picker import (
     DESIGN_PICK,

@@ -9,13 +9,7 @@ from grasp_xl.search.result import Result
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.calc_block import CalcBlock
-from grasp_xl.workbook.cards import (
-    GENE_STYLES,
-    LiveCard,
-    chromosome_cells,
-    title_cells,
-    user_cells,
-)
+from grasp_xl.workbook.cards import GENE_STYLES, LiveCard, chromosome_cells, title_cells, user_cells
 from grasp_xl.workbook.carrying import SetAside
 from grasp_xl.workbook.guidance import guide_blocks, guide_card, guide_parameters
 from grasp_xl.workbook.layout import GA, Area, Card, Layout

@@ -19,7 +19,8 @@ from grasp_xl.workbook.extras import AREA_NAMES, VALIDATIONS, Extra, not_among, 
 from grasp_xl.workbook.layout import CALC, GA, GRASP, OPTION_SPACE, RUN_LOG, Area
 from grasp_xl.workbook.package import Package
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK
-from grasp_xl.workbook.reading import corner_cells, find_sheet
+from grasp_xl.workbook.reading import find_sheet
+from grasp_xl.workbook.reading_polygon import corner_cells
 from grasp_xl.workbook.table import DASH, NO, YES
 from grasp_xl.workbook.writing import Filled
 

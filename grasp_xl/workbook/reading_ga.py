@@ -13,15 +13,7 @@ from grasp_xl.rules import DIVERGENCE, TERMS, Criterion, MomentArm, moment_arm
 from grasp_xl.space import OptionSpace
 from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout
-from grasp_xl.workbook.cells import (
-    LABEL_ROWS,
-    Source,
-    as_number,
-    cells_of,
-    is_blank,
-    normal,
-    shown,
-)
+from grasp_xl.workbook.cells import LABEL_ROWS, Source, as_number, cells_of, is_blank, normal, shown
 from grasp_xl.workbook.layout import MAX_CHILDREN, MAX_GENERATIONS, MAX_SEED, Area, Field
 
 T = TypeVar("T")
