@@ -26,11 +26,16 @@ from live_cases import random_case
 
 from grasp_xl.cli.program import main
 from grasp_xl.commands.output import not_begun, now
+from grasp_xl.commands.preparing import prepare
+from grasp_xl.commands.solve import solve_file
 from grasp_xl.grasp import evaluate
 from grasp_xl.rules import Criterion
 from grasp_xl.search import stop
-from grasp_xl.search.exact import Proof, Status
+from grasp_xl.search.exact import ExactSettings, Proof, Status
+from grasp_xl.search.stop import Interrupt
+from grasp_xl.search.warm import load_exact_search
 from grasp_xl.space import ElementKind, OptionSpace, Part, frozen
+from grasp_xl.task import Parameters
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.layout import Layout
 from grasp_xl.workbook.proved import Proved
@@ -253,6 +258,39 @@ def test_ctrl_c_during_the_proof_keeps_the_run_and_the_bound(hard: Path, told: A
     log = logged(Path(ran["output"]))
     assert (log["Exact search ended"], log["Exact bound"]) == ("interrupted", proved["bound"])
     assert log["Stop reason"] == "generations"
+
+
+def test_a_slow_start_counts_once_against_the_time_limit(
+    hard: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Half a second for the benchmark leaves half a second of one, and that is why it ends."""
+
+    def slow(*words: object, **options: object) -> object:
+        time.sleep(0.5)
+        return prepare(*words, **options)
+
+    monkeypatch.setattr("grasp_xl.commands.solve.prepare", slow)
+    load_exact_search()
+    solved = solve_file(hard, Parameters(), ExactSettings(time_limit_s=1.0))
+    assert solved.ended == "stopped at the time limit"
+    assert 0.3 <= solved.proof.seconds <= 0.6
+
+
+def test_each_end_of_a_search_has_its_words(
+    hard: Path, bracket: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Proved, the gap asked for, too many open branches, somebody's wish: none is guessed."""
+
+    def ended(book: Path, *, asked: bool = False, **settings: float) -> str:
+        interrupt = Interrupt(asked=asked)
+        settings_of = ExactSettings(**{"time_limit_s": 60.0, **settings})
+        return solve_file(book, Parameters(), settings_of, interrupt=interrupt).ended
+
+    assert ended(bracket) == "all is proved"
+    assert ended(hard, gap=100.0) == "stopped at the gap asked for"
+    assert ended(hard, asked=True) == "interrupted"
+    monkeypatch.setattr("grasp_xl.search.exact.MAX_OPEN", 50)
+    assert ended(hard) == "stopped as the memory for open branches is full"
 
 
 def test_a_run_is_kept_whatever_becomes_of_its_proof(

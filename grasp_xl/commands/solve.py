@@ -8,7 +8,7 @@ from grasp_xl.commands.keeping import held_run, kept_trade_offs, replaced
 from grasp_xl.commands.output import Output, now, written_book
 from grasp_xl.commands.preparing import prepare, with_floor_warnings
 from grasp_xl.errors import InfeasibleError
-from grasp_xl.search.exact import ExactSettings, OnBound, Proof
+from grasp_xl.search.exact import Ending, ExactSettings, OnBound, Proof
 from grasp_xl.search.exact import solve as prove
 from grasp_xl.search.floors import floors
 from grasp_xl.search.obstacles import any_feasible
@@ -21,6 +21,14 @@ from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.proved import Proved, among
 from grasp_xl.workbook.saving import check_target, save
+
+ENDINGS: dict[Ending, str] = {
+    "proved": "all is proved",
+    "asked": "interrupted",
+    "time": "stopped at the time limit",
+    "gap": "stopped at the gap asked for",
+    "memory": "stopped as the memory for open branches is full",
+}
 
 FLOOR_SECONDS = 5.0
 """Longest search of ``solve`` for the floors, after the search for the best grasp."""
@@ -58,16 +66,7 @@ class Solved:
     @property
     def ended(self) -> str:
         """Why the search ended, in words."""
-        proof, settings = self.proof, self.settings
-        if proof.status in ("optimal", "infeasible"):
-            return "all is proved"
-        if self.interrupted:
-            return "interrupted"
-        if proof.seconds >= settings.time_limit_s:
-            return "stopped at the time limit"
-        if proof.gap is not None and proof.gap <= settings.gap:
-            return "stopped at the gap asked for"
-        return "stopped as the memory for open branches is full"
+        return ENDINGS[self.proof.ending]
 
     @property
     def shown(self) -> Proved:
@@ -116,23 +115,24 @@ def solve_file(
     load_exact_search()
     began = time.perf_counter()
 
+    def left() -> float:
+        return settings.time_limit_s - (time.perf_counter() - began)
+
     def stop() -> bool:
-        return ask.asked or time.perf_counter() - began >= settings.time_limit_s
+        return ask.asked or left() <= 0
 
     task = prepare(book, options, stop=stop)
     trade_offs, stale = kept_trade_offs(book, task) if output else (None, [])
     task = task.warned([*lost, *stale])
     space, rules = task.space, task.rules
     known = [task.benchmark.chromosome] if task.benchmark.feasible else []
-    left = settings.time_limit_s - (time.perf_counter() - began)
-    settings = replace(settings, time_limit_s=max(0.0, left))
-    proof = prove(space, rules, settings, known=known, stop=stop, on_progress=on_progress)
+    limited = replace(settings, time_limit_s=max(0.0, left()))
+    proof = prove(space, rules, limited, known=known, stop=ask.is_asked, on_progress=on_progress)
     obstacle = _obstacle(task, settings, stop) if proof.status == "infeasible" else None
     least = None
     if obstacle is None:
-        left = settings.time_limit_s - (time.perf_counter() - began)
         known += [grasp.chromosome for grasp in proof.designs]
-        seconds = min(FLOOR_SECONDS, left)
+        seconds = min(FLOOR_SECONDS, left())
         least = proven_floors(space, rules, seconds=seconds, known=known, stop=stop)
         task = with_floor_warnings(task, least.least)
         if proof.status == "infeasible":

@@ -36,6 +36,9 @@ from grasp_xl.search.symmetry import symmetries
 from grasp_xl.space import FloatArray, IntArray, OptionSpace
 
 Status = Literal["optimal", "feasible", "infeasible", "unknown"]
+Ending = Literal["proved", "gap", "time", "memory", "asked"]
+"""Why a search ended: all is proved, the gap is small enough, time or memory is used up, or
+somebody asked it to stop."""
 
 BATCH = 64
 """Nodes that are expanded at once; the same on every machine, so that results are."""
@@ -103,6 +106,7 @@ class Proof:
     seconds : float
     nodes : int
         Nodes expanded.
+    ending : {"proved", "gap", "time", "memory", "asked"}
     """
 
     status: Status
@@ -110,6 +114,7 @@ class Proof:
     designs: tuple[Grasp, ...]
     seconds: float
     nodes: int
+    ending: Ending = "proved"
 
     @property
     def gap(self) -> float | None:
@@ -284,7 +289,7 @@ class _Search:
         """Expand nodes until none is left that could hold a better grasp, or somebody stops."""
 
         def asked_to_stop() -> bool:
-            return stop() or self._out_of_time()
+            return self._ending(stop) is not None
 
         self._start()
         with _Workers(self) as workers:
@@ -304,7 +309,7 @@ class _Search:
                 self.batches += 1
                 if on_progress:
                     on_progress(self.bound, self.best)
-        return self._proof()
+        return self._proof(self._ending(stop) or "gap")
 
     def _start(self) -> None:
         """Open the root nodes: one for each choice of counts, with all elements in the root box."""
@@ -356,10 +361,13 @@ class _Search:
         best = math.inf if self.best is None else self.best
         return min(best, self.few.bound, self.many.bound)
 
-    def _out_of_time(self) -> bool:
-        if len(self.few) + len(self.many) > MAX_OPEN:
-            return True
-        return time.perf_counter() - self.began >= self.settings.time_limit_s
+    def _ending(self, stop: Stop) -> Ending | None:
+        """Return why the search must end, if it must."""
+        if stop():
+            return "asked"
+        if time.perf_counter() - self.began >= self.settings.time_limit_s:
+            return "time"
+        return "memory" if len(self.few) + len(self.many) > MAX_OPEN else None
 
     def _close_enough(self) -> bool:
         if self.settings.gap <= 0 or not self.pool.is_full:
@@ -367,7 +375,7 @@ class _Search:
         last = self.pool.grasps[-1].value
         return last - self.bound <= self.settings.gap * abs(last)
 
-    def _proof(self) -> Proof:
+    def _proof(self, ending: Ending) -> Proof:
         done = not self.few and not self.many
         status: Status
         if self.pool.grasps:
@@ -380,7 +388,7 @@ class _Search:
         )
         bound = designs[0].value if done and designs else self.bound
         seconds = time.perf_counter() - self.began
-        return Proof(status, bound, designs, seconds, self.expanded)
+        return Proof(status, bound, designs, seconds, self.expanded, "proved" if done else ending)
 
     def _active(self, rows: IntArray) -> tuple[tuple[int, ...], ...]:
         active: list[list[int]] = [[] for _ in self.space.kinds]
