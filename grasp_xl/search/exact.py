@@ -8,13 +8,10 @@ timing.
 from __future__ import annotations
 
 import math
-import os
-import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Literal, Self
+from typing import Literal
 
 import numpy as np
 
@@ -23,12 +20,13 @@ from grasp_xl.chromosome import Chromosome, from_active
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import SLACK, Rules
 from grasp_xl.search.exact_bound import node_bound
-from grasp_xl.search.exact_kernel import Nodes, expand, make_nodes, put_children, take_batch
-from grasp_xl.search.exact_leaf import ENTRIES
-from grasp_xl.search.exact_model import locate, weigh, weigh_goals
+from grasp_xl.search.exact_frontier import Frontier
+from grasp_xl.search.exact_kernel import Nodes, make_nodes
+from grasp_xl.search.exact_model import Model, locate, weigh, weigh_goals
 from grasp_xl.search.exact_pool import Found, Pool
-from grasp_xl.search.exact_prices import Room, make_room
-from grasp_xl.search.exchange import STREAMS, Exchange
+from grasp_xl.search.exact_prices import make_room
+from grasp_xl.search.exact_workers import Workers
+from grasp_xl.search.exchange import Exchange
 from grasp_xl.search.feasibility import lifting_counts
 from grasp_xl.search.floors import floors_by_counts
 from grasp_xl.search.stop import Stop, never
@@ -39,15 +37,6 @@ Status = Literal["optimal", "feasible", "infeasible", "unknown"]
 Ending = Literal["proved", "gap", "time", "memory", "asked"]
 """Why a search ended: all is proved, the gap is small enough, time or memory is used up, or
 somebody asked it to stop."""
-
-BATCH = 64
-"""Nodes that are expanded at once; the same on every machine, so that results are."""
-
-PART = 4
-"""Nodes that a worker takes at a time."""
-
-POLL_SECONDS = 0.05
-"""How often somebody's wish to stop is looked for while nodes are expanded."""
 
 PROOF = 1e-9
 """Relative accuracy of the proof: no grasp is better by more than that."""
@@ -163,61 +152,6 @@ def solve(
     return _Search(space, rules, settings or ExactSettings(), known).run(stop, on_progress)
 
 
-class _Frontier:
-    """Open nodes, best first."""
-
-    def __init__(self, elements: int) -> None:
-        self._nodes = make_nodes(0, elements)
-        self._order = np.zeros(0, dtype=np.int64)
-        self._key = np.zeros(0)
-        self._age = np.zeros(0, dtype=np.int64)
-        self._size = 0
-        self._born = 0
-
-    def __len__(self) -> int:
-        return self._size
-
-    @property
-    def bound(self) -> float:
-        """Least bound, infinity where no node is open."""
-        return float(self._nodes.bound[self._order[: self._size]].min(initial=math.inf))
-
-    @property
-    def key(self) -> float:
-        """Key of the node that comes first, infinity where none is open."""
-        return float(self._key[self._order[0]]) if self._size else math.inf
-
-    def take(self, batch: Nodes, below: float) -> int:
-        """Move the first nodes below a bound into a batch; return how many."""
-        taken, self._size = take_batch(
-            self._nodes, self._order, self._key, self._age, self._size, batch, below
-        )
-        return taken
-
-    def put(self, children: Nodes, born: IntArray, below: float) -> None:
-        """Take in all children with a bound below a limit."""
-        self._make_room(int(born.sum()))
-        size = put_children(
-            *(self._nodes, self._order, self._key, self._age, self._size, self._born),
-            *(children, born, below),
-        )
-        self._born += size - self._size
-        self._size = size
-
-    def _make_room(self, more: int) -> None:
-        capacity = len(self._order)
-        if self._size + more <= capacity:
-            return
-        new = max(1024, capacity, more)
-        old = self._nodes
-        self._nodes = make_nodes(capacity + new, old.boxes.shape[1])
-        for kept, field in zip(self._nodes, old, strict=True):
-            kept[:capacity] = field
-        self._key = np.concatenate([self._key, np.zeros(new)])
-        self._age = np.concatenate([self._age, np.zeros(new, dtype=np.int64)])
-        self._order = np.concatenate([self._order, np.arange(capacity, capacity + new)])
-
-
 class _Search:
     def __init__(
         self,
@@ -238,10 +172,12 @@ class _Search:
         self.elements = max(map(sum, self.counts), default=1)
         for chromosome in known:
             self._take_known(chromosome)
-        self.locations = locate(space, rules)
-        self.weights = weigh(space, rules, self.counts, caps=settings.meet_goals)
-        self.goal_weights = weigh_goals(space, rules, self.counts if settings.meet_goals else [])
-        self.few, self.many = _Frontier(self.elements), _Frontier(self.elements)
+        self.model = Model(
+            locate(space, rules),
+            weigh(space, rules, self.counts, caps=settings.meet_goals),
+            weigh_goals(space, rules, self.counts if settings.meet_goals else []),
+        )
+        self.few, self.many = Frontier(self.elements), Frontier(self.elements)
         scales = rules.scales
         self.exchanges = (
             not settings.meet_goals
@@ -292,7 +228,7 @@ class _Search:
             return self._ending(stop) is not None
 
         self._start()
-        with _Workers(self) as workers:
+        with self._workers() as workers:
             while not (asked_to_stop() or self._close_enough()):
                 if self.batches == self.next_exchange:
                     self._look_for_good_ones(workers, asked_to_stop)
@@ -311,22 +247,27 @@ class _Search:
                     on_progress(self.bound, self.best)
         return self._proof(self._ending(stop) or "gap")
 
+    def _workers(self) -> Workers:
+        return Workers(
+            self.model, self.elements, self.settings.top * (1 + len(self.pool.symmetries))
+        )
+
     def _start(self) -> None:
         """Open the root nodes: one for each choice of counts, with all elements in the root box."""
-        room = make_room(len(self.locations.xyz), self.elements, 1)
+        room = make_room(len(self.model.locations.xyz), self.elements, 1)
         floors = floors_by_counts(self.space, self.rules.requirements)
         for number, counts in enumerate(self.counts):
             root = make_nodes((1, 1), self.elements)
             root.choice[:] = number
             bound = node_bound(
-                *(self.locations, self.weights[number], root.boxes[0, 0], self.upper),
+                *(self.model.locations, self.model.weights[number], root.boxes[0, 0], self.upper),
                 *(root.u[0, 0, 0], ROOT_STEPS, room),
             )
             root.bound[:] = max(bound, self.rules.value(floors[counts]))
             frontier = self.few if sum(counts) <= FEW_ELEMENTS else self.many
             frontier.put(root, np.ones(1, dtype=np.int64), self.upper - self.slack)
 
-    def _look_for_good_ones(self, workers: _Workers, asked_to_stop: Stop) -> None:
+    def _look_for_good_ones(self, workers: Workers, asked_to_stop: Stop) -> None:
         """Look for better grasps than those that the nodes have given so far."""
         judged = JUDGED_PER_BATCH * self.batches
         self.next_exchange = IN_VAIN * self.batches
@@ -344,7 +285,7 @@ class _Search:
                 self.pool.take(Found(value, active))
                 self.next_exchange = GAINED * self.batches
 
-    def _take_batch(self, batch: Nodes, below: float) -> tuple[int, _Frontier]:
+    def _take_batch(self, batch: Nodes, below: float) -> tuple[int, Frontier]:
         first = self.batches < FEW_BATCHES or self.few.key < self.many.key
         frontier, other = (self.few, self.many) if first else (self.many, self.few)
         taken = frontier.take(batch, below)
@@ -393,86 +334,5 @@ class _Search:
     def _active(self, rows: IntArray) -> tuple[tuple[int, ...], ...]:
         active: list[list[int]] = [[] for _ in self.space.kinds]
         for place, kind in rows.tolist():
-            active[kind].append(int(self.locations.footprint[place, kind]) + 1)
+            active[kind].append(int(self.model.locations.footprint[place, kind]) + 1)
         return tuple(tuple(sorted(indices)) for indices in active)
-
-
-class _Workers:
-    """Threads that expand a batch of nodes; what comes of each node depends on the node alone."""
-
-    def __init__(self, search: _Search) -> None:
-        self._search = search
-        places, elements = len(search.locations.xyz), search.elements
-        top = search.settings.top * (1 + len(search.pool.symmetries))
-        cores = os.cpu_count() or 1
-        self.halt = np.zeros(1, dtype=np.int64)
-        self.rooms = [make_room(places, elements, ENTRIES) for _ in range(cores)]
-        self.batch = make_nodes(BATCH, elements)
-        self.children = make_nodes((BATCH, elements + 1), elements)
-        self.born = np.zeros(BATCH, dtype=np.int64)
-        self.found = np.zeros((BATCH, top))
-        self.genes = np.zeros((BATCH, top, elements, 2), dtype=np.int64)
-        self._threads = ThreadPoolExecutor(cores)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._threads.shutdown()
-
-    def expand(self, taken: int, upper: float, slack: float, asked_to_stop: Stop) -> None:
-        """Expand the first nodes of the batch; those not done when asked to stop stay as they are.
-
-        An error in a thread is raised here: it voids the proof.
-        """
-        parts = _Shared(range(0, taken, PART))
-
-        def work(room: Room) -> None:
-            for first in parts:
-                expand(
-                    self._search.locations,
-                    self._search.weights,
-                    self._search.goal_weights,
-                    self.batch,
-                    first,
-                    min(first + PART, taken),
-                    upper,
-                    slack,
-                    self.children,
-                    self.born,
-                    self.found,
-                    self.genes,
-                    room,
-                    self.halt,
-                )
-
-        self._wait([self._threads.submit(work, room) for room in self.rooms], asked_to_stop)
-
-    def exchange(self, exchange: Exchange, judged: int, asked_to_stop: Stop) -> None:
-        """Let all streams of an exchange go on."""
-        streams = range(STREAMS)
-        running = [
-            self._threads.submit(exchange.search, stream, judged, self.halt) for stream in streams
-        ]
-        self._wait(running, asked_to_stop)
-
-    def _wait(self, running: Sequence[Future[None]], asked_to_stop: Stop) -> None:
-        while wait(running, POLL_SECONDS).not_done:
-            self.halt[0] = self.halt[0] or asked_to_stop()
-        for thread in running:
-            thread.result()
-
-
-class _Shared:
-    """An iterator that threads share: each value goes to one of them."""
-
-    def __init__(self, values: Iterable[int]) -> None:
-        self._values = iter(values)
-        self._lock = threading.Lock()
-
-    def __iter__(self) -> Iterator[int]:
-        return self
-
-    def __next__(self) -> int:
-        with self._lock:
-            return next(self._values)

@@ -76,6 +76,18 @@ class Locations(NamedTuple):
     tight: NDArray[np.bool_]
 
 
+class Model(NamedTuple):
+    """A task as the exact search sees it.
+
+    locations; weights ``(choices,)`` and goal_weights ``(choices,)`` or ``(0,)`` of ``WEIGHTS``:
+    the value, and the sum of the goals where all are to be met, of each choice of counts.
+    """
+
+    locations: Locations
+    weights: RecordArray
+    goal_weights: RecordArray
+
+
 def locate(space: OptionSpace, rules: Rules) -> Locations:
     """Merge footprints at one place into locations, and lay a kd-tree over them."""
     places: dict[tuple[float, ...], list[int]] = {}
