@@ -9,6 +9,10 @@ RELATIVE = 1e-10
 """A number so close to a round one is that one; comparisons of grasps allow ten times as much."""
 
 
+TOLD_DIGITS = 4
+"""Significant digits of suggested FoS and forces, and of the FoS that they are compared with."""
+
+
 def rounded_down(number: float, digits: int) -> float:
     """Round a number above 0 down to significant digits.
 

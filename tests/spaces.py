@@ -154,3 +154,9 @@ def every_grasp(space: OptionSpace, rules: Rules) -> list[Grasp]:
         for active in product(*choices)
         if any(active)
     ]
+
+
+def all_grasps(space: OptionSpace, rules: Rules) -> list[Grasp]:
+    """Judge every feasible grasp of an option space, best first."""
+    feasible = (grasp for grasp in every_grasp(space, rules) if grasp.feasible)
+    return sorted(feasible, key=lambda grasp: grasp.value)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from spaces import any_rules, every_grasp, option_spaces, plate, some_rules
+from spaces import all_grasps, any_rules, option_spaces, plate, some_rules
 
 from grasp_xl.chromosome import from_active
 from grasp_xl.grasp import Grasp
@@ -24,12 +24,6 @@ from grasp_xl.search.result import GeneticSettings
 from grasp_xl.search.stop import Generations
 from grasp_xl.search.symmetry import representative, symmetries
 from grasp_xl.space import ElementKind, OptionSpace, Part, frozen
-
-
-def all_grasps(space: OptionSpace, rules: Rules) -> list[Grasp]:
-    """Judge every feasible grasp of an option space, best first."""
-    feasible = (grasp for grasp in every_grasp(space, rules) if grasp.feasible)
-    return sorted(feasible, key=lambda grasp: grasp.value)
 
 
 def distinct(space: OptionSpace, grasps: list[Grasp]) -> list[Grasp]:

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from spaces import any_rules, option_spaces, plate, some_rules
-from test_exact import all_grasps
+from spaces import all_grasps, any_rules, option_spaces, plate, some_rules
 
 from grasp_xl.chromosome import from_active
 from grasp_xl.grasp import Grasp

@@ -11,7 +11,7 @@ from typing import Any
 import openpyxl
 import pytest
 from bad_workbooks import Value, tiny_export
-from editing import cell_of
+from editing import cell_of, edit, typed
 
 from grasp_xl.chromosome import Chromosome, is_usable
 from grasp_xl.cli.program import main
@@ -57,13 +57,18 @@ def new(file: Path, book: Path, *words: str) -> int:
 
 def type_into(book: Path, values: Mapping[str, object]) -> None:
     """Type values into named cells, and genes into blocks."""
-    opened = openpyxl.load_workbook(book)
-    for name, value in values.items():
-        rows = value if isinstance(value, tuple) else ((value,),)
-        for row, cells in enumerate(rows):
-            for column, cell in enumerate(cells):
-                cell_of(opened, name, row, column).value = cell
-    opened.save(book)
+    blocks = {
+        name: value if isinstance(value, tuple) else ((value,),) for name, value in values.items()
+    }
+    edit(
+        book,
+        *(
+            typed(name, cell, row, column)
+            for name, rows in blocks.items()
+            for row, cells in enumerate(rows)
+            for column, cell in enumerate(cells)
+        ),
+    )
 
 
 def shown(book: Path, name: str, row: int = 0, column: int = 0) -> Any:

@@ -18,7 +18,7 @@ from rich.table import Table
 from grasp_xl.compiled import is_compiled
 from grasp_xl.errors import Problem
 from grasp_xl.grasp import Grasp
-from grasp_xl.rounding import percent, rounded_down
+from grasp_xl.rounding import TOLD_DIGITS, percent, rounded_down
 from grasp_xl.rules import DIVERGENCE, SLACK, TERMS, UNITS, Rules
 from grasp_xl.search.stop import Progress
 
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from grasp_xl.task import Task
 
 REFRESH_SECONDS = 0.2
-FOS_DIGITS = 4
 
 
 class Terminal(Console):
@@ -341,9 +340,7 @@ def proof_sentence(solved: Solved) -> str:
         return f"No grasp found yet; {none}; {ended}."
     best = proof.designs[0].value
     if proof.is_best_proved:
-        return (
-            f"Proved: {none}, so the first is the best of all; that of the others is not: {ended}."
-        )
+        return f"Proved: {none}, so the first is the best of all; the others are not: {ended}."
     return f"Best found {best:,.6g}{unit}; {none} (gap {percent(proof.gap)}); {ended}."
 
 
@@ -358,7 +355,7 @@ def check(checked: Checked) -> None:
     line(f"part: {space.part.mass_g:,.6g} g, {space.part.weight_n:,.6g} N")
     number = checked.search_space
     line(f"different grasps: {Decimal(number):.4e}" if number else "different grasps: 0")
-    line(f"FoS of the most elements: {rounded_down(checked.max_fos, FOS_DIGITS):g}")
+    line(f"FoS of the most elements: {rounded_down(checked.max_fos, TOLD_DIGITS):g}")
     for term, floor in checked.floors._asdict().items() if checked.floors else ():
         line(f"no {term} below {floor:,.6g} {UNITS[term]}")
     if not checked.obstacle:

@@ -43,9 +43,8 @@ class FoundFront:
         front = self.front
         proved = sum(design.proved for design in front.designs)
         told = (
-            f"{front.proved_sums} of {front.sums} weighted sums minimised to {percent(CLOSE)} with "
-            "proof, "
-            f"{proved} of {len(front.designs)} designs proved"
+            f"{front.proved_sums} of {front.sums} weighted sums minimised to {percent(CLOSE)} "
+            f"with proof, {proved} of {len(front.designs)} designs proved"
         )
         if front.complete:
             return f"{told} ({front.seconds:.2f} s)."

@@ -230,7 +230,7 @@ class _Search:
         self._start()
         with self._workers() as workers:
             while not (asked_to_stop() or self._close_enough()):
-                if self.batches == self.next_exchange:
+                if self.exchanges and self.batches == self.next_exchange:
                     self._look_for_good_ones(workers, asked_to_stop)
                 upper, slack = self.upper, self.slack
                 taken, frontier = self._take_batch(workers.batch, upper - slack)
@@ -271,8 +271,6 @@ class _Search:
         """Look for better grasps than those that the nodes have given so far."""
         judged = JUDGED_PER_BATCH * self.batches
         self.next_exchange = IN_VAIN * self.batches
-        if not self.exchanges:
-            return
         if self.exchange is None:
             self.exchange = Exchange(self.space, self.rules, self.counts)
         if self.pool.grasps:

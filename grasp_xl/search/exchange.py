@@ -25,7 +25,6 @@ FRESH_START = 0.15
 MOST_KICKED = 3
 TRIES = 300
 """Draws of a start before it is given up."""
-PLACES_PER_CELL = 1.0
 GAIN = 1e-12
 """Relative gain that counts as one."""
 
@@ -61,7 +60,7 @@ class Kept(NamedTuple):
 
 
 def lay_cells(t: Tables) -> Cells:
-    """Lay the grids."""
+    """Lay the grids: about one place a cell."""
     kinds = len(t.kinds)
     low, size = np.zeros((kinds, 2)), np.ones(kinds)
     shape, first = np.ones((kinds, 2), dtype=np.int64), np.zeros(kinds, dtype=np.int64)
@@ -73,7 +72,7 @@ def lay_cells(t: Tables) -> Cells:
         points = np.column_stack([t.footprints[axis][places] for axis in ("x", "y")])
         if len(points):
             low[k], extent = points.min(axis=0), np.maximum(np.ptp(points, axis=0), 1.0)
-            size[k] = np.sqrt(extent.prod() * PLACES_PER_CELL / len(points))
+            size[k] = np.sqrt(extent.prod() / len(points))
             size[k] = max(size[k], extent.max() / len(points))
             shape[k] = (extent / size[k]).astype(np.int64) + 1
         cell = np.minimum(((points - low[k]) / size[k]).astype(np.int64), shape[k] - 1)

@@ -17,7 +17,7 @@ from grasp_xl import criteria
 from grasp_xl.chromosome import Chromosome, from_active
 from grasp_xl.errors import InfeasibleError
 from grasp_xl.grasp import active_points
-from grasp_xl.rounding import rounded_down, rounded_up
+from grasp_xl.rounding import TOLD_DIGITS, rounded_down, rounded_up
 from grasp_xl.rules import Requirements
 from grasp_xl.search.feasibility import lifting_counts, lifting_force, max_fos
 from grasp_xl.search.placing import Active, place
@@ -37,9 +37,8 @@ PLACE_SECONDS = 0.2
 
 NOTHING_SINGLE = "No single number that helps was found: change several, or add footprints"
 
-DIGITS = 4
 CLEARANCE_DIGITS = 3
-"""Significant digits of suggested numbers."""
+"""Significant digits of a suggested clearance."""
 
 CLEARANCE_STEP = 0.005
 LEAST_CLEARANCE_MM = 0.01
@@ -71,7 +70,7 @@ class Changes:
     min_elements: int | None
 
     def _lower_fos(self, space: OptionSpace) -> str:
-        in_reach = rounded_down(max_fos(space), DIGITS)
+        in_reach = rounded_down(max_fos(space), TOLD_DIGITS)
         crowded = " (no places were found for more elements)" if self.fos != in_reach else ""
         return f"lower the FoS goal to {self.fos:g}{crowded}"
 
@@ -148,7 +147,7 @@ def _too_weak(space: OptionSpace, requirements: Requirements) -> str:
     most = " and ".join(f"{kind.most} {kind.name}" for kind in space.kinds)
     return (
         f"No grasp can reach FoS {requirements.fos:g}: {most} together reach "
-        f"FoS {rounded_down(max_fos(space), DIGITS):g} against {space.part.weight_n:.5g} N."
+        f"FoS {rounded_down(max_fos(space), TOLD_DIGITS):g} against {space.part.weight_n:.5g} N."
     )
 
 
@@ -202,7 +201,7 @@ class _Explainer:
         lifting = lifting_counts(self.space, self.need)
         placed = [c for c in lifting if any(_within(c, most) for most in crowded)]
         return Changes(
-            fos=rounded_down(reach / self.space.part.weight_n, DIGITS) if reach else None,
+            fos=rounded_down(reach / self.space.part.weight_n, TOLD_DIGITS) if reach else None,
             clearance_mm=self._clearance(),
             counts_max=tuple(self._count_max(number) for number in kinds),
             forces_n=tuple(self._force(number, wanted) for number in kinds),
@@ -287,7 +286,7 @@ class _Explainer:
             for counts in placed
             if counts[number]
         ]
-        return rounded_up(min(forces), DIGITS) if forces else None
+        return rounded_up(min(forces), TOLD_DIGITS) if forces else None
 
 
 def _within(counts: Counts, most: Counts) -> bool:

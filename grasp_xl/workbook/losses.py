@@ -148,7 +148,7 @@ def _extras(theirs: list[Extra], ours: list[Extra], *, same_sizes: bool = True) 
 
 def _without_sizes(extra: Extra) -> Extra:
     if extra.what in (VALIDATIONS, *AREA_NAMES.values()):
-        return replace(extra, key=re.sub(r"\d", "", extra.key))
+        return replace(extra, key=_without_digits(extra.key))
     return extra
 
 
@@ -222,7 +222,11 @@ class Comparison:
 
 def _alike(formula: str, our_formula: str) -> bool:
     """Tell whether formulas differ at most in rows and sizes."""
-    return re.sub(r"\d", "", formula) == re.sub(r"\d", "", our_formula)
+    return _without_digits(formula) == _without_digits(our_formula)
+
+
+def _without_digits(text: str) -> str:
+    return re.sub(r"\d", "", text)
 
 
 def _is_result(value: Value) -> bool:

@@ -44,12 +44,16 @@ class Picker:
     sheet: str
     name: str
 
+    def picked_rows(self, slots: int) -> Area:
+        """Return the cells of the two gene rows of the picked design."""
+        return Area(self.sheet, *PICKED_ROWS, len(KINDS), 1 + slots)
+
     def picked_genes(self, slots: int) -> list[list[str]]:
         """Return references to the gene rows of the picked design."""
-        row, column = PICKED_ROWS
+        rows = self.picked_rows(slots)
         return [
-            [Area(self.sheet, row + kind, column + slot).reference for slot in range(1 + slots)]
-            for kind in range(len(KINDS))
+            [rows.cell(kind, slot).reference for slot in range(rows.columns)]
+            for kind in range(rows.rows)
         ]
 
     def formulas(self, rows: int, unpicked: Formulas) -> Formulas:
@@ -83,7 +87,7 @@ class Picker:
 
     def other_genes_on_card(self, slots: int) -> str:
         """Return the condition that the What-if card shows other genes than the two rows."""
-        genes = Area(self.sheet, *PICKED_ROWS, len(KINDS), 1 + slots).absolute
+        genes = self.picked_rows(slots).absolute
         differ = f'SUMPRODUCT(1*({WHAT_IF.name}&""<>{genes}&""))'
         return f"IF(ISERROR({differ}),TRUE,{differ}>0)"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,7 +17,6 @@ from grasp_xl.workbook.picker import (
     GENE_COLUMN,
     NO_PICKS,
     NUMBER_COLUMN,
-    PICKED_ROWS,
     TRADE_OFF_PICK,
     Formulas,
     Picker,
@@ -62,7 +62,7 @@ def read_picks(source: Source) -> Picks:
 
 
 def _picked_rows(source: Source, picker: Picker, slots: int) -> Area:
-    return Area(source.names[picker.name].sheet, *PICKED_ROWS, len(layout.KINDS), 1 + slots)
+    return replace(picker.picked_rows(slots), sheet=source.names[picker.name].sheet)
 
 
 def _picked(source: Source, picker: Picker, listed: int, best: Chromosome) -> Chromosome | None:
