@@ -146,7 +146,7 @@ def main() -> None:
     parser.add_argument("footprints", type=int)
     parser.add_argument("file", type=Path)
     said = parser.parse_args()
-    said.file.write_bytes(export_workbook(door_frame_of(said.footprints)))
+    said.file.write_bytes(export_workbook(door_frame_of(said.footprints)).content)
 
 
 if __name__ == "__main__":

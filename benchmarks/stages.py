@@ -38,8 +38,8 @@ def one_pass(file: Path, target: Path, generations: int) -> dict[str, float]:
     result = search(task.space, task.rules, task.settings, task.benchmark.chromosome, stop)
     clock.append(time.perf_counter())
     now = datetime.now()  # noqa: DTZ005 (as the program writes it)
-    content, _ = full_workbook(task, result, Origin(file.name, "", now, now))
-    save(content, target)
+    written = full_workbook(task, result, Origin(file.name, "", now, now))
+    save(written.content, target)
     clock.append(time.perf_counter())
     return dict(zip(STAGES, (b - a for a, b in pairwise(clock)), strict=True))
 

@@ -67,8 +67,7 @@ class Case:
             [Generations(generations)],
         )
         proved = self.proved
-        content, _ = full_workbook(task, result, ORIGIN, what_if=self.what_if, proved=proved)
-        return content
+        return full_workbook(task, result, ORIGIN, what_if=self.what_if, proved=proved).content
 
     @property
     def proved(self) -> Proved | None:

@@ -54,7 +54,7 @@ def long_numbers(tmp_path: Path) -> Path:
     part = Part(1720.115897202766, frozen(space.part.centroid_mm + 1 / 3))
     long = replace(space, part=part, kinds=tuple(kinds), scale_factor=2 / 3)
     path = tmp_path / "long.xlsx"
-    path.write_bytes(export_workbook(long))
+    path.write_bytes(export_workbook(long).content)
     return path
 
 

@@ -36,7 +36,15 @@ from grasp_xl.space import (
     scaled_polygon,
 )
 from grasp_xl.task import DEFAULTS, Parameters
-from grasp_xl.workbook import cells, layout, package, reading_places, reading_polygon, run_log
+from grasp_xl.workbook import (
+    cells,
+    layout,
+    package,
+    reading_places,
+    reading_polygon,
+    run_log,
+    stored,
+)
 from grasp_xl.workbook.book import read_book
 
 ROOT = Path(__file__).parents[1]
@@ -281,7 +289,7 @@ def test_defaults_of_the_parameters_are_right() -> None:
         f"{package.ALWAYS_ALLOWED_BYTES // 1_000_000} MB",
         f"at most {package.MAX_UNPACKED_RATIO} times",
         f"{package.MAX_PARTS:,}; {package.MAX_WHOLE_PART_BYTES // 1_000_000} MB",
-        f"{cells.MAX_FILLED_ROWS:,}; {cells.MAX_CELLS:,}",
+        f"{stored.MAX_FILLED_ROWS:,}; {stored.MAX_CELLS:,}",
         f"first {cells.LABEL_ROWS} rows",
         f"at once, up to {cells.MAX_PROBLEMS},",
         f"at most {run_log.MAX_DESIGNS:,}",

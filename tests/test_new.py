@@ -168,7 +168,7 @@ def test_a_program_assigned_grasp_that_is_infeasible_now_is_assigned_anew(
     assert new(export(tmp_path / "tiny.xlsx"), path, "--quiet") == 0
     type_into(path, edit)
     book = read_book(path)
-    fresh.write_bytes(export_workbook(book.space))
+    fresh.write_bytes(export_workbook(book.space).content)
     benchmarks = []
     for file in (path, fresh):
         clearance = str(book.parameters.clearance_mm)

@@ -54,7 +54,7 @@ def books(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     folder = tmp_path_factory.mktemp("books")
     paths = {name: folder / f"{name}.xlsx" for name in BOOKS}
     space = read_option_space(open_source(SAMPLES / "door_frame.xlsx"))
-    paths["export"].write_bytes(export_workbook(space))
+    paths["export"].write_bytes(export_workbook(space).content)
     make_workbook(paths["export"], Parameters(), Output(paths["new"]))
     output = Output(paths["result"])
     run_file(paths["new"], Parameters(), output, stop=lambda _: [Generations(500)])

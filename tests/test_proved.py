@@ -68,7 +68,7 @@ def hard(tmp_path: Path) -> Path:
     corners = frozen([[0, 0, 0], [3000, 0, 0], [3000, 3000, 0], [0, 3000, 0]])
     part = Part(27_000.0, frozen([1500.0, 1500.0, 10.0]))
     path = tmp_path / "hard.xlsx"
-    path.write_bytes(export_workbook(OptionSpace(part, kinds, corners, 0.65)))
+    path.write_bytes(export_workbook(OptionSpace(part, kinds, corners, 0.65)).content)
     return path
 
 
@@ -410,7 +410,7 @@ def written(status: Status, criterion: str = "divergence") -> bytes:
     bound = grasp.value if status == "optimal" else 0.125
     proved = Proved(Proof(status, bound, designs, 1.0, nodes=0), ended="interrupted")
     origin = Origin("case.xlsx", "", now(), now())
-    return full_workbook(task, not_begun(task), origin, proved=proved)[0]
+    return full_workbook(task, not_begun(task), origin, proved=proved).content
 
 
 def third_lines(content: bytes) -> dict[str, tuple[str, float]]:

@@ -499,7 +499,7 @@ def test_overlap_of_the_magnets_is_kept(tmp_path):
     cups, magnets = space.kinds
     covered = replace(magnets, overlap=frozen([0.75, 1.0]))
     path = tmp_path / "export.xlsx"
-    path.write_bytes(export_workbook(replace(space, kinds=(cups, covered))))
+    path.write_bytes(export_workbook(replace(space, kinds=(cups, covered))).content)
     again = read_option_space(open_source(path))
     assert again.kinds[0].overlap is None
     assert again.kinds[1].overlap.tolist() == [0.75, 1.0]

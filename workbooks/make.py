@@ -28,7 +28,7 @@ def make_input(part: SamplePart, folder: Path) -> Path:
     book = folder / f"{part.name}.xlsx"
     with tempfile.TemporaryDirectory() as exports:
         export = Path(exports) / f"{part.name}-export.xlsx"
-        export.write_bytes(export_workbook(part.space))
+        export.write_bytes(export_workbook(part.space).content)
         grasp = (part.designer_suction, part.designer_magnets)
         make_workbook(export, Parameters(), Output(book, force=True), grasp)
     return book

@@ -102,10 +102,8 @@ def front_file(
     found = FoundFront(task, front, 0.0, time_limit_s, interrupt.asked)
     if output:
         result, proved = held_run(book, task)
-        content, _ = written_book(
-            task, result, book, began, proved=proved, trade_offs=listed(found)
-        )
-        save(content, output.path)
+        written = written_book(task, result, book, began, proved=proved, trade_offs=listed(found))
+        save(written.content, output.path)
     return replace(found, seconds=time.perf_counter() - clock)
 
 

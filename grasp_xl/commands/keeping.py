@@ -16,10 +16,8 @@ from grasp_xl.space import ElementKind, FloatArray
 from grasp_xl.task import Task, settle
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book
-from grasp_xl.workbook.cells import Source
 from grasp_xl.workbook.inputs import changed_inputs, trade_off_rows
-from grasp_xl.workbook.losses import Written, filled_cells, losses, sheet_gone
-from grasp_xl.workbook.package import Package
+from grasp_xl.workbook.losses import Written, losses, sheet_gone
 from grasp_xl.workbook.picker import NO_PICKS
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.reading import open_source
@@ -49,7 +47,7 @@ def replaced_in_place(output: Output, previous: Book) -> list[Problem]:
     OutputError
         Naming everything that would be lost, or the sheet without which that cannot be told.
     """
-    if previous.is_untouched:
+    if previous.package is None or previous.is_untouched:
         return []
     target, written = output.path, _as_written(previous)
     gone = sheet_gone(previous.source, written)
@@ -61,7 +59,7 @@ def replaced_in_place(output: Output, previous: Book) -> list[Problem]:
             hint=f"Give that sheet the name {gone!r} again, write to another file with -o, "
             "or add --force to lose what a run does not write",
         )
-    lost = [] if gone else losses(previous.source, written)
+    lost = [] if gone else losses(previous.package, previous.source, written)
     if lost and not output.force:
         raise OutputError(
             f"{target} holds what the new workbook would not: {'; '.join(lost)}. "
@@ -112,9 +110,7 @@ def _lost(target: Path, lost: list[str]) -> list[Problem]:
 def _as_written(book: Book) -> Written:
     """Write a workbook again as it was, with its own cards and results, to know what is ours."""
     if layout.USER_BLOCK.name not in book.source.names:  # an export
-        content = export_workbook(book.space)
-        cells = filled_cells(Source(Package("export", content)), layout.OPTION_SPACE)
-        return Written(content, {layout.OPTION_SPACE: cells}, same_inputs=False)
+        return Written(export_workbook(book.space), same_inputs=False)
     task = _task_of_its_run(book)
     same_inputs = task is not None
     was = replace(book, what_if=None) if task else _of_its_sizes(book)
@@ -128,7 +124,7 @@ def _as_written(book: Book) -> Written:
         result = replace(result, matrix=shown.matrix, children=children)
     proved = shown_proof(book.source, task)
     written = written_book(task, result, was, now(), proved=proved, trade_offs=was.trade_offs)
-    return Written(*written, same_inputs)
+    return Written(written, same_inputs)
 
 
 def _task_of_its_run(book: Book) -> Task | None:

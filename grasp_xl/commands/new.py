@@ -35,8 +35,8 @@ def make_workbook(
     trade_offs, left_out = kept_trade_offs(previous or book, task)
     lost = replaced_in_place(output, previous) if previous else []
     task = task.warned([*stale, *left_out, *lost])
-    content, _ = written_book(task, not_begun(task), book, began, trade_offs=trade_offs)
-    save(content, output.path)
+    written = written_book(task, not_begun(task), book, began, trade_offs=trade_offs)
+    save(written.content, output.path)
     return task
 
 

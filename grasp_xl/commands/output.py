@@ -12,7 +12,8 @@ from grasp_xl.workbook.book import Book
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.run_log import Origin
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs
-from grasp_xl.workbook.writing import Filled, full_workbook
+from grasp_xl.workbook.writing import full_workbook
+from grasp_xl.workbook.written import WrittenBook
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,14 +53,13 @@ def written_book(
     *,
     proved: Proved | None = None,
     trade_offs: TradeOffs | None = None,
-) -> tuple[bytes, Filled]:
-    """Return the full workbook of a task and its result, and which of its cells are filled."""
-    source = book.source.package
-    name = Path(source.name).name.encode(errors="backslashreplace").decode()
+) -> WrittenBook:
+    """Write the full workbook of a task and its result."""
+    name = Path(book.source.name).name.encode(errors="backslashreplace").decode()
     return full_workbook(
         task,
         result,
-        Origin(name, source.sha256, began, now()),
+        Origin(name, book.package.sha256 if book.package else "", began, now()),
         what_if=book.what_if,
         picks=book.picks,
         set_aside=book.set_aside,

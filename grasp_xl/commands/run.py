@@ -102,8 +102,8 @@ def run_file(
         solved = prove(task, result) if prove else None
     finally:  # what the run found is kept, whatever becomes of the proof
         shown = solved.shown if solved else None
-        content, _ = written_book(task, result, book, began, proved=shown, trade_offs=trade_offs)
-        save(content, output.path)
+        written = written_book(task, result, book, began, proved=shown, trade_offs=trade_offs)
+        save(written.content, output.path)
         _save_history(result, output)
     if saved:
         idle = _nothing_asked(book, options, task.generations, saved.state.generation)

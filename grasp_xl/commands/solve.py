@@ -142,10 +142,8 @@ def solve_file(
     if output is None or obstacle:
         return solved
     result, _ = held_run(book, task)
-    content, _ = written_book(
-        task, result, book, started, proved=solved.shown, trade_offs=trade_offs
-    )
-    save(content, output.path)
+    written = written_book(task, result, book, started, proved=solved.shown, trade_offs=trade_offs)
+    save(written.content, output.path)
     return replace(solved, output=output.path)
 
 

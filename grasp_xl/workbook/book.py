@@ -16,8 +16,9 @@ from grasp_xl.workbook.carrying import SetAside, carried
 from grasp_xl.workbook.cells import Source, cells_of
 from grasp_xl.workbook.inputs import genes_of_text, genes_text
 from grasp_xl.workbook.layout import Area, Field
+from grasp_xl.workbook.package import Package, read_package
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK, Picker, Picks
-from grasp_xl.workbook.reading import open_source, read_option_space
+from grasp_xl.workbook.reading import read_option_space
 from grasp_xl.workbook.reading_ga import find_block, find_ga_sheet, read_chromosome, read_parameters
 from grasp_xl.workbook.reading_pick import read_picks
 from grasp_xl.workbook.reading_run import (
@@ -29,6 +30,7 @@ from grasp_xl.workbook.reading_run import (
 )
 from grasp_xl.workbook.reading_trade_offs import read_trade_offs
 from grasp_xl.workbook.stamp import is_untouched
+from grasp_xl.workbook.stored import StoredCells
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs
 
 
@@ -39,6 +41,8 @@ class Book:
     Parameters
     ----------
     source : Source
+    package : Package or None
+        The file; None where it is open in Excel.
     space : OptionSpace
     parameters : Parameters
     user_chromosome : Chromosome or None
@@ -56,6 +60,7 @@ class Book:
     """
 
     source: Source
+    package: Package | None
     space: OptionSpace
     parameters: Parameters
     user_chromosome: Chromosome | None
@@ -72,8 +77,8 @@ class Book:
 
     @property
     def is_untouched(self) -> bool:
-        """Whether it is just as we wrote it."""
-        return is_untouched(io.BytesIO(self.source.package.content))
+        """Whether it is a file just as we wrote it."""
+        return self.package is not None and is_untouched(io.BytesIO(self.package.content))
 
     def saved_run(self) -> SavedRun:
         """Read the state of the run that it holds.
@@ -98,7 +103,8 @@ def read_book(path: Path) -> Book:
     InputError
         With every problem found.
     """
-    return _book(open_source(path), stale_genes=False)
+    package = read_package(path)
+    return book_of(Source(StoredCells(package)), package)
 
 
 def read_previous(path: Path) -> Book | None:
@@ -112,13 +118,30 @@ def read_previous(path: Path) -> Book | None:
         With every problem found in a full workbook.
     """
     try:
-        source = open_source(path)
+        package = read_package(path)
+        source = Source(StoredCells(package))
+        ga_sheet = find_ga_sheet(source)
     except InputError:
         return None
-    return _book(source, stale_genes=True) if find_ga_sheet(source) else None
+    return book_of(source, package, stale_genes=True) if ga_sheet else None
 
 
-def _book(source: Source, *, stale_genes: bool) -> Book:
+def book_of(source: Source, package: Package | None = None, *, stale_genes: bool = False) -> Book:
+    """Read what the cells of a workbook say.
+
+    Parameters
+    ----------
+    source : Source
+    package : Package, optional
+        The file that it is.
+    stale_genes : bool
+        Whether its chromosomes may have genes that its option space does not have.
+
+    Raises
+    ------
+    InputError
+        With every problem found.
+    """
     parameters = read_parameters(source)
     picks = read_picks(source)
     trade_offs = read_trade_offs(source)
@@ -144,7 +167,18 @@ def _book(source: Source, *, stale_genes: bool) -> Book:
         _set_aside(source, layout.WHAT_IF, run_log.WHAT_IF_SET_ASIDE) if what_if is None else None,
     )
     source.finish()
-    return Book(source, space, parameters, user, assigned, what_if, usable, trade_offs, set_aside)
+    return Book(
+        source,
+        package,
+        space,
+        parameters,
+        user,
+        assigned,
+        what_if,
+        usable,
+        trade_offs,
+        set_aside,
+    )
 
 
 def _usable_pick(

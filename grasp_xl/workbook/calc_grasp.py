@@ -20,8 +20,9 @@ from grasp_xl.workbook.calc_inputs import INPUTS_FAULT, INPUTS_USABLE, used
 from grasp_xl.workbook.calc_rules import SLACK, listed
 from grasp_xl.workbook.calc_values import CalcValues
 from grasp_xl.workbook.layout import CALC, KINDS, Area
-from grasp_xl.workbook.pen import Cell, CellValue
+from grasp_xl.workbook.pen import Cell
 from grasp_xl.workbook.styles import Style
+from grasp_xl.workbook.written import CellValue
 
 MEASURED = ("longest", "shortest", "hull area")
 SAME_PLACE = "1E-9"

@@ -16,8 +16,9 @@ from grasp_xl.task import DEFAULTS
 from grasp_xl.workbook import calc_rules, layout
 from grasp_xl.workbook.calc_rules import SLACK, Rule
 from grasp_xl.workbook.layout import CALC, KINDS, Area, Layout
-from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import Style
+from grasp_xl.workbook.written import CellValue
 
 INPUT_COLUMN = 10
 HEADER = ("input", "as written", "changed", "may be", "usable", "called", "counts")

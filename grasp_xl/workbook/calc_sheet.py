@@ -15,8 +15,9 @@ from grasp_xl.workbook.calc_edges import write_edges
 from grasp_xl.workbook.calc_grasp import block_cells
 from grasp_xl.workbook.calc_inputs import COLUMNS, FIRST_ROW, INPUT_COLUMN, write_inputs
 from grasp_xl.workbook.layout import CALC, Area, Layout
-from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import Style
+from grasp_xl.workbook.written import CellValue
 
 
 def write_calc(

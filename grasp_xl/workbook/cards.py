@@ -33,8 +33,9 @@ from grasp_xl.workbook.layout import (
     Card,
     Layout,
 )
-from grasp_xl.workbook.pen import Cell, CellValue
+from grasp_xl.workbook.pen import Cell
 from grasp_xl.workbook.styles import Style
+from grasp_xl.workbook.written import CellValue
 
 GENE_STYLES = (Style.SUCTION_GENE, Style.MAGNETS_GENE)
 TYPED_GENE_STYLES = (Style.TYPED_SUCTION_GENE, Style.TYPED_MAGNETS_GENE)

@@ -9,26 +9,17 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
-
-from openpyxl import Workbook
-from openpyxl.chartsheet import Chartsheet
+from typing import NamedTuple, Protocol
 
 from grasp_xl.errors import InputError, Problem
 from grasp_xl.workbook.layout import SHEETS, TRADE_OFFS, Area, Field, area_of
-from grasp_xl.workbook.package import MAX_ROWS, Package, open_workbook, sheet_rows
+from grasp_xl.workbook.package import MAX_ROWS
 
 MAX_NUMBER = 1e9
 """Largest magnitude of any number: no mass in g or place in mm comes near it."""
 
 MIN_DISTANCE = 1e-9
 """How far a number must keep from a bound that it may not touch, since others are divided by it."""
-
-MAX_FILLED_ROWS = 250_000
-"""Rows of one sheet that hold anything: the longest list of footprints, and room for more."""
-
-MAX_CELLS = 10_000_000
-"""Cells of one sheet, in each row up to the last one that the file has."""
 
 MAX_PROBLEMS = 50
 """Problems that are named; a list of all would help nobody."""
@@ -40,7 +31,6 @@ ERROR_VALUES = ("#N/A", "#REF!", "#DIV/0!", "#VALUE!", "#NAME?", "#NUM!", "#NULL
 
 _PLACE = re.compile(r".+!\$?[A-Z]{1,3}\$?[1-9]\d*(:\$?[A-Z]{1,3}\$?[1-9]\d*)?")
 _NUMBER = re.compile(r"(?<![A-Z0-9_.])\d+(\.\d+)?(E[+-]?\d+)?(?![A-Z0-9_.(])")
-_AS_FAR_AS_A_ROW_GOES = 0
 _MAX_DIGITS = 20  # of a whole number that a message shows
 
 Value = object
@@ -101,50 +91,36 @@ def is_blank(value: Value) -> bool:
     return value is None or (isinstance(value, str) and not value.strip())
 
 
-def read_grid(
-    package: Package, book: Workbook, sheet: str, *, formulas: bool = False, rows: int = MAX_ROWS
-) -> Grid:
-    """Read the values of a sheet's first rows, or its formulas alone.
+class Cells(Protocol):
+    """A workbook whose cells can be read: a file, or one that is open in Excel."""
 
-    Raises
-    ------
-    InputError
-        If the sheet is larger than any option space.
-    """
-    worksheet = book[sheet]
-    filled: dict[int, tuple[Value, ...]] = {}
-    if isinstance(worksheet, Chartsheet):
-        return Grid(sheet, filled)
-    size = 0
-    for number, cells in sheet_rows(package, worksheet, _AS_FAR_AS_A_ROW_GOES):
-        if number > rows:
-            break
-        size += len(cells)
-        if formulas:
-            values = [cell.value if cell.data_type == "f" else None for cell in cells]
-        else:
-            values = [cell.value for cell in cells]
-        while values and values[-1] is None:
-            values.pop()
-        if values:
-            filled[number - 1] = tuple(values)
-        if len(filled) > MAX_FILLED_ROWS:
-            raise _too_many(sheet, "filled rows", MAX_FILLED_ROWS)
-        if size > MAX_CELLS:
-            raise _too_many(sheet, "cells", MAX_CELLS)
-    return Grid(sheet, filled)
+    @property
+    def name(self) -> str:
+        """What a person calls it."""
 
+    @property
+    def sheets(self) -> list[str]:
+        """Names of all sheets, in order."""
 
-def _too_many(sheet: str, what: str, limit: int) -> InputError:
-    hint = "use a larger pitch, and move other data to another sheet"
-    return InputError([Problem(sheet, f"more than {limit:,} {what}", f"at most {limit:,}", hint)])
+    @property
+    def references(self) -> dict[str, str]:
+        """What its defined names stand for: ``'GA'!$B$5:$C$6``."""
+
+    def grid(self, sheet: str, *, formulas: bool, rows: int) -> Grid:
+        """Read the values of a sheet's first rows, or its formulas alone (with ``=``).
+
+        Raises
+        ------
+        InputError
+            If the sheet is larger than any option space.
+        """
 
 
 @dataclass
 class Source:
     """A workbook that is being read: its sheets, its names, and the problems found so far."""
 
-    package: Package
+    cells: Cells
     problems: list[Problem] = field(default_factory=list)
     warnings: list[Problem] = field(default_factory=list)
     worked_out: dict[Area, Value] = field(default_factory=dict)
@@ -152,21 +128,10 @@ class Source:
     _grids: dict[tuple[str, bool, int], Grid] = field(default_factory=dict)
 
     @cached_property
-    def values(self) -> Workbook:
-        """The workbook with the values that the last program stored."""
-        return open_workbook(self.package, formulas=False)
-
-    @cached_property
-    def formulas(self) -> Workbook:
-        """The workbook with its formulas; opened only where a formula matters."""
-        return open_workbook(self.package, formulas=True)
-
-    @cached_property
     def names(self) -> dict[str, Area]:
         """Defined names that stand for a block of cells on a sheet that exists."""
         areas = {}
-        for name, definition in self.values.defined_names.items():
-            reference = definition.attr_text or ""
+        for name, reference in self.cells.references.items():
             if not _PLACE.fullmatch(reference):  # a constant or a calculation
                 continue
             with suppress(ValueError):
@@ -176,9 +141,14 @@ class Source:
         return areas
 
     @property
+    def name(self) -> str:
+        """What a person calls the workbook."""
+        return self.cells.name
+
+    @property
     def sheets(self) -> list[str]:
         """Names of all sheets, in order."""
-        return list(self.values.sheetnames)
+        return self.cells.sheets
 
     @property
     def foreign_sheets(self) -> list[str]:
@@ -192,14 +162,13 @@ class Source:
             return whole
         key = (sheet, formulas, rows)
         if key not in self._grids:
-            book = self.formulas if formulas else self.values
-            self._grids[key] = read_grid(self.package, book, sheet, formulas=formulas, rows=rows)
+            self._grids[key] = self.cells.grid(sheet, formulas=formulas, rows=rows)
         return self._grids[key]
 
     def sheets_with(self, label: str) -> Iterator[Area]:
         """Iterate over the label's first cell on each sheet; what stands below is not read."""
         for sheet in self.sheets:
-            grid = read_grid(self.package, self.values, sheet, rows=LABEL_ROWS)
+            grid = self.cells.grid(sheet, formulas=False, rows=LABEL_ROWS)
             if found := grid.find(label):
                 yield found
 
@@ -253,7 +222,7 @@ class Source:
         problems = self.problems[:MAX_PROBLEMS]
         if len(self.problems) > MAX_PROBLEMS:
             rest = f"problems beyond the first {MAX_PROBLEMS}: {len(self.problems) - MAX_PROBLEMS}"
-            problems.append(Problem(self.package.name, rest, "none", "mend the first ones first"))
+            problems.append(Problem(self.name, rest, "none", "mend the first ones first"))
         if problems:
             raise InputError(problems)
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.search.result import Result
 from grasp_xl.workbook.layout import FITNESS_TABLE, Area
-from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.proved import ALL_GRASPS, Proved
 from grasp_xl.workbook.result_title import write_result_title
 from grasp_xl.workbook.styles import Style
 from grasp_xl.workbook.table import DASH
+from grasp_xl.workbook.written import CellValue
 
 LABELS = {10_000: "Gen: 10k", 50_000: "Gen: 50k"}
 COLUMNS = ("Grasp", "FoS", "Cost", "Moment", "Deviation", "Structure", "Divergence")

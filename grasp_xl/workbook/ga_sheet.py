@@ -13,11 +13,12 @@ from grasp_xl.workbook.cards import GENE_STYLES, LiveCard, chromosome_cells, tit
 from grasp_xl.workbook.carrying import SetAside
 from grasp_xl.workbook.guidance import guide_blocks, guide_card, guide_parameters
 from grasp_xl.workbook.layout import GA, Area, Card, Layout
-from grasp_xl.workbook.pen import ROW_HEIGHT, CellValue, Pen
+from grasp_xl.workbook.pen import ROW_HEIGHT, Pen
 from grasp_xl.workbook.picker import DESIGN_PICK, Picker
 from grasp_xl.workbook.proved import NO_PROOF, NOT_PROVED, Proved
 from grasp_xl.workbook.run_log import PROOF_TITLE
 from grasp_xl.workbook.styles import Style
+from grasp_xl.workbook.written import CellValue
 
 EDITED = "Edited since the search for the optimum"
 """Title of the exact search's card once genes or inputs are others than those of its proof."""

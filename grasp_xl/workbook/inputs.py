@@ -20,7 +20,7 @@ from grasp_xl.space import FloatArray, IntArray, OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import shown
-from grasp_xl.workbook.pen import CellValue
+from grasp_xl.workbook.written import CellValue
 
 SAME_RATIO, SAME_SIZE = 1e-12, 1e-9
 """Numbers that differ by less, relative or absolute, are the same input."""

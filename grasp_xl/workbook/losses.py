@@ -21,8 +21,9 @@ from grasp_xl.workbook.package import Package
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK
 from grasp_xl.workbook.reading import find_sheet
 from grasp_xl.workbook.reading_polygon import corner_cells
+from grasp_xl.workbook.stored import StoredCells
 from grasp_xl.workbook.table import DASH, NO, YES
-from grasp_xl.workbook.writing import Filled
+from grasp_xl.workbook.written import WrittenBook
 
 MAX_NAMED = 10
 """Things of a kind, on a sheet, that a message names."""
@@ -68,39 +69,37 @@ class Written:
 
     Parameters
     ----------
-    content : bytes
-    filled : Filled
-        The cells that we fill.
+    book : WrittenBook
     same_inputs : bool
         Whether its results are those of the inputs that it has now: else numbers and what depends
         on sizes are different though nobody typed over them.
     """
 
-    content: bytes
-    filled: Filled
+    book: WrittenBook
     same_inputs: bool
 
 
 def sheet_gone(source: Source, written: Written) -> str | None:
     """Return a sheet of ours without which it cannot be told what else of a workbook is not."""
-    gone = (name for name in written.filled if name not in source.sheets)
-    return next(gone, None) if GA in written.filled else None  # an export's may have any name
+    ours = written.book.sheets
+    gone = (name for name in ours if name not in source.sheets)
+    return next(gone, None) if GA in ours else None  # an export's may have any name
 
 
-def losses(source: Source, written: Written) -> list[str]:
+def losses(package: Package, source: Source, written: Written) -> list[str]:
     """List what a workbook holds beside what we wrote."""
-    copy = Package("the workbook as we wrote it", written.content)
-    own = {name: name for name in written.filled} | {find_sheet(source): OPTION_SPACE}
+    copy = Package("the workbook as we wrote it", written.book.content)
+    own = {name: name for name in written.book.sheets} | {find_sheet(source): OPTION_SPACE}
     found = [f"the sheet {name!r}" for name in source.sheets if name not in own]
-    now, then = _objects(source.package), _objects(copy)
+    now, then = _objects(package), _objects(copy)
     found += [
         f"{what} ({now[what] - then[what]} more than ours)"
         for what in OBJECTS
         if now[what] > then[what]
     ]
-    theirs, ours = read_extras(source.package), read_extras(copy)
+    theirs, ours = read_extras(package), read_extras(copy)
     found += _extras(theirs.of_book, ours.of_book)
-    cells = Comparison(source, Source(copy), written)
+    cells = Comparison(source, Source(StoredCells(copy)), written)
     for sheet, our_name in own.items():
         if sheet in source.sheets:
             changes = list(cells.changes(sheet, our_name))
@@ -173,7 +172,7 @@ class Comparison:
 
     def changes(self, sheet: str, our_name: str) -> Iterator[tuple[str, str]]:
         """Yield what would be lost of a sheet, and the cell where it stands."""
-        ours = self._written.filled[our_name]
+        ours = self._written.book.sheets[our_name].cells
         for row, column in sorted(filled_cells(self._source, sheet)):
             if our_name == RUN_LOG and column < LOG_COLUMNS:
                 continue

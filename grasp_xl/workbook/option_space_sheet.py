@@ -9,9 +9,10 @@ from xlsxwriter.utility import xl_rowcol_to_cell
 from grasp_xl.space import OptionSpace
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.layout import OPTION_SPACE, Area, KindLabels
-from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.space_guidance import guide_option_space
 from grasp_xl.workbook.styles import Style
+from grasp_xl.workbook.written import CellValue
 
 
 def write_option_space(pen: Pen, space: OptionSpace, *, live: bool) -> None:

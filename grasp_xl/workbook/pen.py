@@ -14,6 +14,7 @@ from xlsxwriter.worksheet import Worksheet
 
 from grasp_xl.workbook.layout import Area
 from grasp_xl.workbook.styles import FONT, Formats, Style
+from grasp_xl.workbook.written import CellValue, WrittenCell, WrittenSheet
 
 A4 = 9
 """Excel's number of the paper size."""
@@ -36,8 +37,6 @@ FIT_SCALE = 43
 """Least scale at which a picture is kept whole."""
 EMU = 9525
 """English metric units of a pixel."""
-
-CellValue = str | int | float | bool | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +106,7 @@ def _in_our_font(chart: Any, font: dict[str, Any] | None) -> dict[str, Any]:  # 
 
 
 class Pen:
-    """Writes one sheet, and remembers which cells it filled."""
+    """Writes one sheet, and remembers what it wrote."""
 
     def __init__(
         self, book: xlsxwriter.Workbook, formats: Formats, name: str, run: str = ""
@@ -115,7 +114,8 @@ class Pen:
         self.name = name
         self.sheet = book.add_worksheet(name, ExactWorksheet)
         self.formats = formats
-        self.filled: set[tuple[int, int]] = set()
+        self.written = WrittenSheet()
+        self.names: dict[str, Area] = {}
         self._book = book
         self.sheet.hide_gridlines(2)
         self.sheet.set_default_row(ROW_HEIGHT)
@@ -135,7 +135,7 @@ class Pen:
     ) -> None:
         """Write one cell; text is never taken for a formula."""
         look = self.formats[style]
-        self.filled.add((row, column))
+        self.written.cells[row, column] = WrittenCell(value, style, formula)
         if formula is not None:
             shown = "" if value is None else value
             self.sheet.write_formula(row, column, f"={formula}", look, shown)
@@ -150,7 +150,7 @@ class Pen:
 
     def date(self, row: int, column: int, moment: datetime) -> None:
         """Write a date and time."""
-        self.filled.add((row, column))
+        self.written.cells[row, column] = WrittenCell(moment, Style.DATE)
         self.sheet.write_datetime(row, column, moment, self.formats[Style.DATE])
 
     def put(self, cells: Iterable[Cell]) -> None:
@@ -173,6 +173,7 @@ class Pen:
         if (last_row, last_column) != (area.row, area.column):
             look = self.formats[style]
             self.sheet.merge_range(area.row, area.column, last_row, last_column, "", look)
+            self.written.merged.add(area)
         self.write(area.row, area.column, value, style, formula)
 
     def hide_errors(self, area: Area) -> None:
@@ -197,7 +198,7 @@ class Pen:
 
     def fix_row_heights(self) -> None:
         """Give every filled row its height; LibreOffice would choose another and stretch charts."""
-        for row in {row for row, _ in self.filled} - set(self.sheet.row_info):
+        for row in {row for row, _ in self.written.cells} - set(self.sheet.row_info):
             self.sheet.set_row(row, ROW_HEIGHT)
 
     def widths(self, column: int, *widths: float) -> None:
@@ -227,6 +228,7 @@ class Pen:
         tall = max(math.ceil(scale * height / PAGE_HEIGHT) for _, height in sizes)
         self.sheet.fit_to_pages(1, 1 if legible else tall)
         self.sheet.print_area_range = ",".join(page.reference for page in pages)
+        self.written.print_area = self.sheet.print_area_range
         if lists and not legible:
             for picture in pages[len(lists) :]:
                 self._widen(picture)
@@ -283,3 +285,4 @@ class Pen:
     def name_area(self, name: str, area: Area) -> None:
         """Give a block of cells a workbook-level name."""
         self._book.define_name(name, f"={area.reference}")
+        self.names[name] = area

@@ -14,6 +14,7 @@ from grasp_xl.workbook.package import read_package
 from grasp_xl.workbook.reading_labels import A_COORDINATE, miss, usual_place
 from grasp_xl.workbook.reading_places import check_lists, check_total, list_start, read_footprints
 from grasp_xl.workbook.reading_polygon import look_at_polygon, read_polygon
+from grasp_xl.workbook.stored import StoredCells
 
 SECTIONS = (layout.PART, *(labels.section for labels in layout.KINDS))
 
@@ -29,7 +30,7 @@ def open_source(path: Path) -> Source:
     InputError
         If the file is no whole and harmless workbook.
     """
-    return Source(read_package(path))
+    return Source(StoredCells(read_package(path)))
 
 
 def read_option_space(source: Source) -> OptionSpace:
@@ -77,7 +78,7 @@ def find_sheet(source: Source) -> str:
     expected = f"one sheet with the title {layout.TITLE!r}"
     if not titles:
         hint = "export the option space from CAD into this workbook"
-        name = source.package.name
+        name = source.name
         raise InputError([Problem(name, "no option-space sheet", expected, hint)])
     first, *others = titles
     found = f"an option space besides that of the sheet {first.sheet!r}"

@@ -204,7 +204,7 @@ def _cards(source: Source) -> list[Area]:
 
 def _no_run(source: Source, found: str, hint: str) -> InputError:
     expected = "a workbook with a run to go on from"
-    return InputError([Problem(source.package.name, found, expected, hint)])
+    return InputError([Problem(source.name, found, expected, hint)])
 
 
 def _saved_run(source: Source, space: OptionSpace, logged: dict[str, Value]) -> SavedRun:

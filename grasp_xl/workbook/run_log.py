@@ -21,9 +21,10 @@ from grasp_xl.workbook.inputs import (
     space_rows,
 )
 from grasp_xl.workbook.layout import RUN_LOG, Area
-from grasp_xl.workbook.pen import ROW_HEIGHT, CellValue, Pen
+from grasp_xl.workbook.pen import ROW_HEIGHT, Pen
 from grasp_xl.workbook.proved import NOT_PROVED, Proved
 from grasp_xl.workbook.styles import Style
+from grasp_xl.workbook.written import CellValue
 
 INPUTS_HASH = "InputsHash"
 RANDOM_STATE = "RandomState"

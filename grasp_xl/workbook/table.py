@@ -12,6 +12,7 @@ from grasp_xl.space import OptionSpace
 from grasp_xl.workbook.layout import KINDS, Area
 from grasp_xl.workbook.pen import ROW_HEIGHT, Pen
 from grasp_xl.workbook.styles import Style
+from grasp_xl.workbook.written import WrittenCell
 
 DASH = "-"
 YES, NO = "yes", "no"
@@ -72,7 +73,9 @@ def add_table(pen: Pen, name: str, area: Area, labels: list[str]) -> None:
             ],
         },
     )
-    pen.filled |= {(area.row, area.column + column) for column in range(area.columns)}
+    for column, label in enumerate(labels, area.column):
+        pen.written.cells[area.row, column] = WrittenCell(label, Style.STACKED_HEADER)
+    pen.written.tables[name] = area
     pen.sheet.repeat_rows(area.row)
     pen.sheet.set_row(area.row, 3 * ROW_HEIGHT)  # headers of two lines, and the filter buttons
 

@@ -14,7 +14,7 @@ from grasp_xl.rules import TERMS, Terms
 from grasp_xl.task import Task
 from grasp_xl.workbook.designs_sheet import NORM_WIDTH, NORMALISED, NUMBER_WIDTH
 from grasp_xl.workbook.layout import FITNESS_HEADER, KINDS, TABLE_ROW, TRADE_OFFS, Area
-from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.picker import (
     DESIGN_PICK,
     GENE_COLUMN,
@@ -44,6 +44,7 @@ from grasp_xl.workbook.table import (
     gene_labels,
     gene_styles,
 )
+from grasp_xl.workbook.written import CellValue
 
 PROVED, FOUND = "proved", "found"
 LEGEND = ("proved among all grasps", "found, not proved")

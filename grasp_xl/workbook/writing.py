@@ -22,16 +22,14 @@ from grasp_xl.workbook.grasp_sheet import Picture, write_grasp
 from grasp_xl.workbook.history_sheet import write_history
 from grasp_xl.workbook.layout import Layout
 from grasp_xl.workbook.option_space_sheet import write_option_space
-from grasp_xl.workbook.pen import CellValue, Pen
+from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.picker import DESIGN_PICK, NO_PICKS, TRADE_OFF_PICK, Picks
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.run_log import Origin, write_run_log
 from grasp_xl.workbook.stamp import PLACEHOLDER, STAMP_PROPERTY, stamped
 from grasp_xl.workbook.styles import FIXED_FONT, Formats
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs, write_trade_offs
-
-Filled = dict[str, set[tuple[int, int]]]
-"""Cells that a workbook fills, by sheet."""
+from grasp_xl.workbook.written import CellValue, WrittenBook
 
 
 def full_workbook(
@@ -44,8 +42,8 @@ def full_workbook(
     set_aside: SetAside = NOTHING_ASIDE,
     proved: Proved | None = None,
     trade_offs: TradeOffs | None = None,
-) -> tuple[bytes, Filled]:
-    """Return the full workbook of a run, and the cells that it fills.
+) -> WrittenBook:
+    """Write the full workbook of a run.
 
     Parameters
     ----------
@@ -112,7 +110,11 @@ def full_workbook(
     pens[layout.GA].sheet.activate()
     book.set_custom_property(STAMP_PROPERTY, PLACEHOLDER)
     book.close()
-    return stamped(file.getvalue()), {name: pen.filled for name, pen in pens.items()}
+    return WrittenBook(
+        stamped(file.getvalue()),
+        {name: pen.written for name, pen in pens.items()},
+        {name: area for pen in pens.values() for name, area in pen.names.items()},
+    )
 
 
 def _still_listed(picks: Picks, result: Result, trade_offs: TradeOffs | None) -> Picks:
@@ -125,13 +127,14 @@ def _still_listed(picks: Picks, result: Result, trade_offs: TradeOffs | None) ->
     return Picks(design, trade_off)
 
 
-def export_workbook(space: OptionSpace) -> bytes:
-    """Return an option space as CAD exports it: one sheet, values only."""
+def export_workbook(space: OptionSpace) -> WrittenBook:
+    """Write an option space as CAD exports it: one sheet, values only."""
     file = io.BytesIO()
     book = _new_book(file)
-    write_option_space(Pen(book, Formats(book), layout.OPTION_SPACE), space, live=False)
+    pen = Pen(book, Formats(book), layout.OPTION_SPACE)
+    write_option_space(pen, space, live=False)
     book.close()
-    return file.getvalue()
+    return WrittenBook(file.getvalue(), {pen.name: pen.written}, {})
 
 
 def _new_book(file: io.BytesIO) -> xlsxwriter.Workbook:
