@@ -18,7 +18,7 @@ LAYERS = (
     ("stability",),
     ("search",),
     ("task",),
-    ("workbook",),
+    ("workbook", "macros"),
     ("commands",),
     ("cli",),
 )

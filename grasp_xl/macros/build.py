@@ -1,0 +1,61 @@
+"""Makes the VBA projects from their sources: ``python -m grasp_xl.macros.build``.
+
+For developers, after a change of a ``.bas`` file or of the list of sheets.  Nothing in a project
+depends on the time or on chance: the same sources give the same bytes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from xlsxwriter import Workbook
+
+from grasp_xl.macros import MODULES, PROJECTS
+
+NO_CACHE = bytes.fromhex("cc61 ffff 00 0000")
+"""Stream ``_VBA_PROJECT`` of a project without compiled code ([MS-OVBA] 2.3.4.1).
+
+Its version, 0xFFFF, is none of Excel's, so that every Excel compiles the sources ([MS-OVBA] 1.6).
+"""
+
+
+def build(sheets: Sequence[str]) -> bytes:
+    """Return the VBA project of a workbook with these sheets."""
+    from pyopenvba import ExcelFile  # only developers have it
+    from pyopenvba.cfb import CFB
+
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "book.xlsm"  # pyOpenVBA goes by the ending, not by the content type
+        _write_without_macros(path, sheets)
+        with ExcelFile(path) as book:
+            project = book.add_vba_project()
+            for source in MODULES:
+                project.add_module(source.stem, source.read_bytes().decode("ascii"))
+            for module in project.modules:
+                module.dirty = True  # also those of the template, which have compiled code
+            book.save()
+            streams = CFB.from_bytes(book.vba_project_bytes())
+    # pyOpenVBA leaves its template's version: an Excel of just that version would take the cache,
+    # which is empty, for compiled code.
+    streams.write_stream_in_storage("VBA", "_VBA_PROJECT", NO_CACHE)
+    content: bytes = streams.to_bytes()
+    return content
+
+
+def main() -> None:
+    """Write every project into this package."""
+    for sheets, path in PROJECTS.items():
+        path.write_bytes(build(sheets))
+
+
+def _write_without_macros(path: Path, sheets: Sequence[str]) -> None:
+    """Write a workbook of empty sheets."""
+    with Workbook(path) as book:
+        for sheet in sheets:
+            book.add_worksheet(sheet)
+
+
+if __name__ == "__main__":
+    main()
