@@ -76,10 +76,10 @@ class Office:
         """End LibreOffice."""
         self._worker.communicate(timeout=SECONDS)
 
-    def open(self, path: Path) -> None:
-        """Open a workbook with the values that it stores; close the one before."""
+    def open(self, path: Path, *, macros: bool = False) -> None:
+        """Open a workbook with the values that it stores, macros enabled or not; close the one before."""
         self._do("close")
-        self._do("open", path=str(path))
+        self._do("open", path=str(path), macros=macros)
         self.path = path
 
     def recalculate(self) -> None:
@@ -112,6 +112,11 @@ class Office:
     def paste(self, source: Place, target: Place) -> None:
         """Copy cells and paste them whole elsewhere; :meth:`undo` does not put this back."""
         self._do("paste", source=_sent(source), target=_sent(target))
+
+    def modules(self, library: str) -> dict[str, str]:
+        """Return the source of every module of a library of macros, by its name."""
+        sources: dict[str, str] = self._do("modules", library=library)
+        return sources
 
     def remove(self, sheet: str) -> None:
         """Delete a sheet; :meth:`undo` does not put it back."""

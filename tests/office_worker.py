@@ -27,6 +27,8 @@ except ImportError as error:  # told to the test session in words, which then sk
 START_SECONDS = 60
 XLSX = "Calc MS Excel 2007 XML"
 WITH_ERROR = 4  # com.sun.star.sheet.FormulaResult.ERROR
+RUN_MACROS = 4  # com.sun.star.document.MacroExecMode.ALWAYS_EXECUTE_NO_WARN
+NO_MACROS = 0  # NEVER_EXECUTE, which is also the default
 SCRATCH = "scratch_of_the_tests"
 
 
@@ -120,10 +122,11 @@ class Session:
         self._book = None
         self._typed = []
 
-    def open(self, path):
-        """Open a workbook with the values that it stores."""
+    def open(self, path, macros):
+        """Open a workbook with the values that it stores, and with macros enabled or not."""
+        mode = RUN_MACROS if macros else NO_MACROS
         self._book = self._desktop.loadComponentFromURL(
-            url(path), "_blank", 0, properties(Hidden=True)
+            url(path), "_blank", 0, properties(Hidden=True, MacroExecutionMode=mode)
         )
         if self._book is None:
             raise ValueError(f"{path} does not open")
@@ -165,6 +168,11 @@ class Session:
         """Copy cells and paste them whole, as a person does by Ctrl+C and Ctrl+V."""
         area, first = self._area(source), self._area(target).getCellByPosition(0, 0)
         first.Spreadsheet.copyRange(first.CellAddress, area.RangeAddress)
+
+    def modules(self, library):
+        """Return the source of every module of a library of macros, by its name."""
+        modules = self._book.BasicLibraries.getByName(library)
+        return {name: modules.getByName(name) for name in modules.ElementNames}
 
     def remove(self, sheet):
         """Delete a sheet."""
