@@ -1,0 +1,178 @@
+"""The VBA projects that we ship hold our sources and xlwings', and nothing else."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import tomllib
+import warnings
+import zipfile
+from collections.abc import Sequence
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import pytest
+import xlwings
+from npm import complaints
+from office import Office
+from xlsxwriter import Workbook
+
+from grasp_xl.macros import FULL, MODULES, PROJECTS, WITH_TRADE_OFFS, project
+from grasp_xl.macros.build import build
+from grasp_xl.workbook.layout import SHEETS
+
+PYPROJECT = Path(__file__).parent.parent / "pyproject.toml"
+SOURCES = {path.stem: path.read_bytes().decode("ascii") for path in MODULES}
+DIGESTS = {
+    FULL: "45293c5ce2e0610a584b8e89b8a253bf4c9e64918f9f2495b444e667ea8635f2",
+    WITH_TRADE_OFFS: "8055cf9cd331250a6355c3339c03e5caee4e4794ec94e414c18b2061300305e7",
+}
+MACROS = {"CheckGrasp": "check", "RunGrasp": "run", "ProveGrasp": "prove", "StopGrasp": "stop"}
+
+LIBRARY = "VBAProject"
+ADDED = "Rem Attribute VBA_ModuleType={}\nOption VBASupport 1\n"
+"""What LibreOffice writes above a module's source, in place of its attributes."""
+
+every_project = pytest.mark.parametrize("sheets", PROJECTS, ids=["full", "trade-offs"])
+
+
+def opened(content: bytes) -> Any:
+    """Open a VBA project with olevba."""
+    with warnings.catch_warnings():
+        # It calls pyparsing by names that pyparsing no longer likes.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        from oletools.olevba import VBA_Parser
+    return VBA_Parser(LIBRARY, data=content)
+
+
+def documents(sheets: Sequence[str]) -> list[str]:
+    """Names of the modules that belong to the workbook and to its sheets."""
+    return ["ThisWorkbook", *(f"Sheet{number + 1}" for number in range(len(sheets)))]
+
+
+def without_attributes(source: str) -> list[str]:
+    """Lines of a source below its attributes."""
+    lines = source.splitlines()
+    while lines and lines[0].startswith("Attribute "):
+        del lines[0]
+    return lines
+
+
+@pytest.fixture
+def book(sheets: Sequence[str], tmp_path: Path) -> Path:
+    """Write a workbook with macros, and a button for each."""
+    path = tmp_path / "book.xlsm"
+    with Workbook(path) as written:
+        for sheet in sheets:
+            written.add_worksheet(sheet).set_vba_name()
+        for row, macro in enumerate(MACROS):
+            written.get_worksheet_by_name("GA").insert_button(row, 1, {"macro": macro})
+        written.add_vba_project(BytesIO(project(sheets)), is_stream=True)
+        written.set_vba_name()
+    return path
+
+
+# --- the sources ---
+
+
+def test_xlwings_module_is_that_of_the_pinned_xlwings():
+    """The module that we ship is, byte for byte, that of the xlwings that the extra installs."""
+    installed = Path(xlwings.__file__).with_name("xlwings.bas").read_bytes()
+    assert MODULES[0].read_bytes() == installed
+    (version,) = re.findall(r"^'Version: (.+)\r$", SOURCES["xlwings"], re.MULTILINE)
+    extras = tomllib.loads(PYPROJECT.read_text(encoding="utf-8"))["project"]
+    assert f"xlwings=={version}" in extras["optional-dependencies"]["excel"]
+    assert "BSD 3-clause license" in SOURCES["xlwings"]
+
+
+def test_each_macro_calls_one_python_function():
+    """A macro is one line, which runs the function of its name; there is no other code."""
+    subs = [
+        f'Public Sub {macro}()\r\n    RunPython "import grasp_xl.live; grasp_xl.live.{call}()"\r\nEnd Sub'
+        for macro, call in MACROS.items()
+    ]
+    code = [line for line in without_attributes(SOURCES["GraspXL"]) if not line.startswith("'")]
+    expected = "\n".join(["Option Explicit", *subs]).splitlines()
+    assert [line for line in code if line] == expected
+
+
+# --- the projects ---
+
+
+@every_project
+def test_projects_are_those_that_we_know(sheets):
+    """A project never changes unnoticed."""
+    assert hashlib.sha256(project(sheets)).hexdigest() == DIGESTS[sheets]
+
+
+@every_project
+def test_building_again_gives_the_same_bytes(sheets):
+    """What we ship is what the sources beside it give."""
+    assert build(sheets) == project(sheets)
+
+
+@every_project
+def test_olevba_finds_the_sources_and_no_other_code(sheets):
+    """Our modules hold the .bas files, byte for byte, and those of workbook and sheets no code."""
+    found = [(name, code) for _, _, name, code in opened(project(sheets)).extract_macros()]
+    names = [f"{name}.cls" for name in documents(sheets)]
+    assert [name for name, _ in found] == names + [path.name for path in MODULES]
+    codes = dict(found)
+    assert [without_attributes(codes[name]) for name in names] == [[]] * len(names)
+    assert {path.stem: codes[path.name] for path in MODULES} == SOURCES
+
+
+@every_project
+def test_each_sheet_has_a_document_module(sheets):
+    """Workbook and sheets are declared as documents, our modules as modules."""
+    text = opened(project(sheets)).ole_file.openstream("PROJECT").read().decode("ascii")
+    declared = [line for line in text.splitlines() if re.match("Document|Module|Class|Base", line)]
+    expected = [f"Document={name}/&H00000000" for name in documents(sheets)]
+    assert declared == expected + [f"Module={path.stem}" for path in MODULES]
+
+
+@every_project
+def test_project_has_no_compiled_code(sheets):
+    """Each Excel compiles the sources: the project's version is none's, and its cache is empty."""
+    stream = opened(project(sheets)).ole_file.openstream("VBA/_VBA_PROJECT").read()
+    assert stream == b"\xcc\x61\xff\xff\x00\x00\x00"
+
+
+@pytest.mark.parametrize("sheets", [SHEETS, FULL[::-1], ()], ids=["no settings", "order", "none"])
+def test_other_sheets_have_no_project(sheets):
+    """A project is for its sheets, in their order; for others there is none."""
+    with pytest.raises(ValueError, match="no VBA project for the sheets"):
+        project(sheets)
+
+
+# --- workbooks with them ---
+
+
+@every_project
+def test_code_names_are_those_of_the_documents(sheets, book):
+    """XlsxWriter gives workbook and sheets the names that the document modules have."""
+    with zipfile.ZipFile(book) as parts:
+        assert parts.read("xl/vbaProject.bin") == project(sheets)
+        names = ["workbook", *(f"worksheets/sheet{number + 1}" for number in range(len(sheets)))]
+        texts = [parts.read(f"xl/{name}.xml").decode() for name in names]
+    found = [re.findall('<(?:workbook|sheet)Pr [^>]*codeName="(.+?)"', text) for text in texts]
+    assert found == [[name] for name in documents(sheets)]
+
+
+@every_project
+def test_libreoffice_finds_the_same_modules(sheets, book, office: Office):
+    """LibreOffice opens the workbook with macros enabled, and lists the same sources."""
+    office.open(book, macros=True)
+    expected = {name: ADDED.format("VBADocumentModule") + "\n" for name in documents(sheets)}
+    for name, source in SOURCES.items():
+        body = "\n".join(without_attributes(source))
+        expected[name] = ADDED.format("VBAModule") + body + "\n\n"
+    assert office.modules(LIBRARY) == expected
+
+
+@every_project
+@pytest.mark.parametrize("version", ["Office2016", "Microsoft365"])
+def test_open_xml_sdk_finds_no_error(version, book):
+    """By Microsoft's schemas, a workbook with macros and buttons is valid."""
+    assert complaints(book, version) == []
