@@ -25,14 +25,23 @@ from grasp_xl.workbook.layout import SHEETS
 PYPROJECT = Path(__file__).parent.parent / "pyproject.toml"
 SOURCES = {path.stem: path.read_bytes().decode("ascii") for path in MODULES}
 DIGESTS = {
-    FULL: "45293c5ce2e0610a584b8e89b8a253bf4c9e64918f9f2495b444e667ea8635f2",
-    WITH_TRADE_OFFS: "8055cf9cd331250a6355c3339c03e5caee4e4794ec94e414c18b2061300305e7",
+    FULL: "4fbc2ea98d167880321e2f75a73f3bc9adb02abc53d795791442a344f76d09b5",
+    WITH_TRADE_OFFS: "8717f09f95b2a2e122ed7dc5e1f7855391d9c660604017c8968cc4ed9d9c9f46",
 }
 MACROS = {"CheckGrasp": "check", "RunGrasp": "run", "ProveGrasp": "prove", "StopGrasp": "stop"}
 
 LIBRARY = "VBAProject"
-ADDED = "Rem Attribute VBA_ModuleType={}\nOption VBASupport 1\n"
+DECLARED = {"xlwings": "Module", "Dictionary": "Class", "GraspXL": "Module"}
+ABOVE = {
+    "Document": "Rem Attribute VBA_ModuleType=VBADocumentModule\nOption VBASupport 1\n",
+    "Module": "Rem Attribute VBA_ModuleType=VBAModule\nOption VBASupport 1\n",
+    "Class": "Rem Attribute VBA_ModuleType=VBAClassModule\nOption VBASupport 1\nOption ClassModule\n",
+}
 """What LibreOffice writes above a module's source, in place of its attributes."""
+CLASS_FILE = re.compile(r"VERSION 1\.0 CLASS\r\nBEGIN\r\n.*?\r\nEND\r\n", re.DOTALL)
+"""What the file of a class has above the source."""
+CLASS_BASE = 'Attribute VB_Base = "0{FCFB3D2A-A0FA-1068-A738-08002B3371B5}"\r\n'
+"""What the source of a class has in a project and not in a file."""
 
 every_project = pytest.mark.parametrize("sheets", PROJECTS, ids=["full", "trade-offs"])
 
@@ -52,11 +61,9 @@ def documents(sheets: Sequence[str]) -> list[str]:
 
 
 def without_attributes(source: str) -> list[str]:
-    """Lines of a source below its attributes."""
-    lines = source.splitlines()
-    while lines and lines[0].startswith("Attribute "):
-        del lines[0]
-    return lines
+    """Lines of a source that a person sees in an editor."""
+    lines = CLASS_FILE.sub("", source).splitlines()
+    return [line for line in lines if not line.startswith("Attribute ")]
 
 
 @pytest.fixture
@@ -76,14 +83,22 @@ def book(sheets: Sequence[str], tmp_path: Path) -> Path:
 # --- the sources ---
 
 
-def test_xlwings_module_is_that_of_the_pinned_xlwings():
-    """The module that we ship is, byte for byte, that of the xlwings that the extra installs."""
-    installed = Path(xlwings.__file__).with_name("xlwings.bas").read_bytes()
-    assert MODULES[0].read_bytes() == installed
+def test_modules_of_xlwings_are_those_of_the_pinned_one():
+    """The modules that we ship are, byte for byte, those of the xlwings that the extra installs."""
+    installed = Path(xlwings.__file__).parent
+    assert SOURCES["xlwings"].encode() == (installed / "xlwings.bas").read_bytes()
+    assert SOURCES["Dictionary"].encode() == (installed / "addin" / "Dictionary.cls").read_bytes()
     (version,) = re.findall(r"^'Version: (.+)\r$", SOURCES["xlwings"], re.MULTILINE)
     extras = tomllib.loads(PYPROJECT.read_text(encoding="utf-8"))["project"]
     assert f"xlwings=={version}" in extras["optional-dependencies"]["excel"]
+
+
+def test_sources_keep_their_licences():
+    """What others wrote says who they are, and on which terms it is shipped."""
     assert "BSD 3-clause license" in SOURCES["xlwings"]
+    assert "Zoomer Analytics LLC" in SOURCES["xlwings"]
+    assert "License: MIT" in SOURCES["Dictionary"]
+    assert "Tim Hall" in SOURCES["Dictionary"]
 
 
 def test_each_macro_calls_one_python_function():
@@ -114,22 +129,23 @@ def test_building_again_gives_the_same_bytes(sheets):
 
 @every_project
 def test_olevba_finds_the_sources_and_no_other_code(sheets):
-    """Our modules hold the .bas files, byte for byte, and those of workbook and sheets no code."""
+    """The modules hold the sources, byte for byte, and those of workbook and sheets no code."""
     found = [(name, code) for _, _, name, code in opened(project(sheets)).extract_macros()]
     names = [f"{name}.cls" for name in documents(sheets)]
     assert [name for name, _ in found] == names + [path.name for path in MODULES]
     codes = dict(found)
     assert [without_attributes(codes[name]) for name in names] == [[]] * len(names)
-    assert {path.stem: codes[path.name] for path in MODULES} == SOURCES
+    code = {path.stem: codes[path.name].replace(CLASS_BASE, "") for path in MODULES}
+    assert code == {name: CLASS_FILE.sub("", source) for name, source in SOURCES.items()}
 
 
 @every_project
 def test_each_sheet_has_a_document_module(sheets):
-    """Workbook and sheets are declared as documents, our modules as modules."""
+    """Workbook and sheets are declared as documents, the others as modules and a class."""
     text = opened(project(sheets)).ole_file.openstream("PROJECT").read().decode("ascii")
     declared = [line for line in text.splitlines() if re.match("Document|Module|Class|Base", line)]
     expected = [f"Document={name}/&H00000000" for name in documents(sheets)]
-    assert declared == expected + [f"Module={path.stem}" for path in MODULES]
+    assert declared == expected + [f"{kind}={name}" for name, kind in DECLARED.items()]
 
 
 @every_project
@@ -164,10 +180,10 @@ def test_code_names_are_those_of_the_documents(sheets, book):
 def test_libreoffice_finds_the_same_modules(sheets, book, office: Office):
     """LibreOffice opens the workbook with macros enabled, and lists the same sources."""
     office.open(book, macros=True)
-    expected = {name: ADDED.format("VBADocumentModule") + "\n" for name in documents(sheets)}
+    expected = dict.fromkeys(documents(sheets), ABOVE["Document"] + "\n")
     for name, source in SOURCES.items():
         body = "\n".join(without_attributes(source))
-        expected[name] = ADDED.format("VBAModule") + body + "\n\n"
+        expected[name] = f"{ABOVE[DECLARED[name]]}{body}\n\n"
     assert office.modules(LIBRARY) == expected
 
 

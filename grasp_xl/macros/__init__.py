@@ -1,7 +1,8 @@
 """The VBA projects that workbooks with macros carry, and the sources that they are made of.
 
 ``xlwings.bas`` is xlwings' stand-alone module, unchanged, with its licence: its ``RunPython``
-starts Python from Excel.  ``GraspXL.bas`` is ours: a macro for each button.  ``build.py`` makes
+starts Python from Excel.  ``Dictionary.cls`` comes with it, from Tim Hall: without it the module
+does not compile on a Mac.  ``GraspXL.bas`` is ours: a macro for each button.  ``build.py`` makes
 projects of them, which are package data, so that a user's machine needs no tool for it.
 """
 
@@ -12,8 +13,10 @@ from pathlib import Path
 
 from grasp_xl.workbook.layout import SHEETS, TRADE_OFFS, VALID_DESIGNS
 
-MODULES = (Path(__file__).with_name("xlwings.bas"), Path(__file__).with_name("GraspXL.bas"))
-"""Sources of the standard modules, in the order in which a project has them."""
+MODULES = tuple(
+    Path(__file__).with_name(name) for name in ("xlwings.bas", "Dictionary.cls", "GraspXL.bas")
+)
+"""Sources of the modules with code, in the order in which a project has them."""
 
 CONFIGURATION = "xlwings.conf"
 """Sheet in which ``RunPython`` finds its settings, the last of a workbook with macros."""

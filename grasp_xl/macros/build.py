@@ -1,6 +1,6 @@
 """Makes the VBA projects from their sources: ``python -m grasp_xl.macros.build``.
 
-For developers, after a change of a ``.bas`` file or of the list of sheets.  Nothing in a project
+For developers, after a change of a source or of the list of sheets.  Nothing in a project
 depends on the time or on chance: the same sources give the same bytes.
 """
 
@@ -23,7 +23,7 @@ Its version, 0xFFFF, is none of Excel's, so that every Excel compiles the source
 
 def build(sheets: Sequence[str]) -> bytes:
     """Return the VBA project of a workbook with these sheets."""
-    from pyopenvba import ExcelFile  # only developers have it
+    from pyopenvba import ExcelFile, VBAModuleKind  # only developers have it
     from pyopenvba.cfb import CFB
 
     with TemporaryDirectory() as folder:
@@ -32,7 +32,10 @@ def build(sheets: Sequence[str]) -> bytes:
         with ExcelFile(path) as book:
             project = book.add_vba_project()
             for source in MODULES:
-                project.add_module(source.stem, source.read_bytes().decode("ascii"))
+                text = source.read_bytes().decode("ascii")
+                is_class = source.suffix == ".cls"
+                kind = VBAModuleKind.other if is_class else VBAModuleKind.standard
+                project.add_module(source.stem, text, kind=kind)
             for module in project.modules:
                 module.dirty = True  # also those of the template, which have compiled code
             book.save()
