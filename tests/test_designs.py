@@ -14,6 +14,7 @@ from openpyxl.formula.translate import Translator
 from openpyxl.worksheet.worksheet import Worksheet
 
 from grasp_xl.cli.program import main
+from grasp_xl.workbook import layout
 from grasp_xl.workbook.designs_sheet import NORMALISED
 from grasp_xl.workbook.layout import TABLE_ROW, VALID_DESIGNS, Area, area_of
 from grasp_xl.workbook.styles import Style
@@ -55,17 +56,25 @@ def column_of(sheet: Worksheet, label: str) -> list[object]:
 
 
 def drawn(path: Path) -> dict[str, list[int]]:
-    """Return what each series of the chart draws: the numbers of designs, by the legend's text."""
+    """Return what each series of the chart draws: the numbers of designs, by the legend's text.
+
+    The legend is in the cells above the chart, in the order of the series.
+    """
     sheet = sheet_of(path)
     with zipfile.ZipFile(path) as parts:
         charts = [parts.read(name).decode() for name in parts.namelist() if "/charts/" in name]
     (chart,) = [text for text in charts if "Trade-off" in text]
-    series = re.findall(r"<c:ser>.*?<c:v>([^<]*)</c:v>.*?<c:yVal>.*?<c:f>([^<]*)</c:f>", chart)
+    series = re.findall(r"<c:tx>.*?<c:f>([^<]*)</c:f>.*?<c:yVal>.*?<c:f>([^<]*)</c:f>", chart)
+    legend = [cell.value for cell in sheet[TABLE_ROW + 1] if str(cell.value).startswith("Cost $")]
     found = {}
-    for name, reference in series:
+    for title, reference in series:
         area = area_of(reference)
         column = [sheet.cell(area.row + 1 + n, area.column + 1).value for n in range(area.rows)]
-        found[name] = [n for n, value in enumerate(column, 1) if value is not None]
+        title_area = area_of(title)
+        name = sheet.cell(title_area.row + 1, title_area.column + 1).value
+        if name:
+            found[name] = [n for n, value in enumerate(column, 1) if value is not None]
+    assert legend == 2 * list(found)  # above the chart, and above its data
     return found
 
 
@@ -98,7 +107,12 @@ def test_designs_are_numbered_from_1(many: Path) -> None:
 def test_what_misses_a_goal_and_what_meets_all_have_colours(many: Path, office: Office) -> None:
     """Normalised values above 1 stand out; rows that meet all goals are green from end to end."""
     sheet = sheet_of(many)
-    rules = {str(area.sqref): rule for area in sheet.conditional_formatting for rule in area.rules}
+    rules = {
+        str(area.sqref): rule
+        for area in sheet.conditional_formatting
+        for rule in area.rules
+        if rule.type == "expression"
+    }
     above, meets = rules.values()
     assert above.dxf.fill.bgColor.rgb.endswith(Style.ABOVE.look["bg_color"][1:])
     assert meets.dxf.fill.bgColor.rgb.endswith(Style.PASSES.look["bg_color"][1:])
@@ -112,7 +126,7 @@ def test_what_misses_a_goal_and_what_meets_all_have_colours(many: Path, office: 
         (areas[0], above, "Norm. Cost", lambda value: value > 1),
         (areas[1], meets, "Meets All Goals", lambda value: value == "yes"),
     ):
-        assert (area.row, area.rows) == (TABLE_ROW + 1, table.rows - 1)
+        assert (area.row, area.rows) == (TABLE_ROW + 1, layout.MAX_DESIGNS)
         column = labels.index(label)
         values = column_of(sheet, label)
         assert len(set(map(truth, values))) == 2

@@ -89,7 +89,7 @@ def run(
 
     if in_place and output:
         raise UsageError("Both --in-place and -o were given.", where="-o", hint="Give one of them")
-    path = file if in_place else output or file.with_name(f"{file.stem}-result.xlsx")
+    path = file if in_place else output or file.with_name(f"{file.stem}-result{file.suffix}")
     options = parameters(
         goals,
         fos,

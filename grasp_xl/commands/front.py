@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grasp_xl.commands.keeping import held_run, replaced
-from grasp_xl.commands.output import Output, now, written_book
+from grasp_xl.commands.output import Output, macros_at, now, written_book
 from grasp_xl.commands.preparing import prepare, refuse_infeasible
 from grasp_xl.rounding import percent
 from grasp_xl.search.front import CLOSE, Front, OnFront, find_front
@@ -102,7 +102,15 @@ def front_file(
     found = FoundFront(task, front, 0.0, time_limit_s, interrupt.asked)
     if output:
         result, proved = held_run(book, task)
-        written = written_book(task, result, book, began, proved=proved, trade_offs=listed(found))
+        written = written_book(
+            task,
+            result,
+            book,
+            began,
+            proved=proved,
+            trade_offs=listed(found),
+            macros=macros_at(output.path, book),
+        )
         save(written.content, output.path)
     return replace(found, seconds=time.perf_counter() - clock)
 

@@ -123,7 +123,9 @@ def _as_written(book: Book) -> Written:
         children = written_children(book.source, task.space) or shown.children
         result = replace(result, matrix=shown.matrix, children=children)
     proved = shown_proof(book.source, task)
-    written = written_book(task, result, was, now(), proved=proved, trade_offs=was.trade_offs)
+    written = written_book(
+        task, result, was, now(), proved=proved, trade_offs=was.trade_offs, macros=book.macros
+    )
     return Written(written, same_inputs)
 
 

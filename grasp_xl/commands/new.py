@@ -5,7 +5,7 @@ from pathlib import Path
 
 from grasp_xl.chromosome import Chromosome, is_usable
 from grasp_xl.commands.keeping import kept_trade_offs, replaced, replaced_in_place
-from grasp_xl.commands.output import Output, not_begun, now, written_book
+from grasp_xl.commands.output import Output, macros_at, not_begun, now, written_book
 from grasp_xl.commands.preparing import Active, prepare
 from grasp_xl.errors import InputError, Problem
 from grasp_xl.task import Parameters, Task
@@ -35,7 +35,9 @@ def make_workbook(
     trade_offs, left_out = kept_trade_offs(previous or book, task)
     lost = replaced_in_place(output, previous) if previous else []
     task = task.warned([*stale, *left_out, *lost])
-    written = written_book(task, not_begun(task), book, began, trade_offs=trade_offs)
+    macros = macros_at(output.path, previous or book)
+    result = not_begun(task)
+    written = written_book(task, result, book, began, trade_offs=trade_offs, macros=macros)
     save(written.content, output.path)
     return task
 

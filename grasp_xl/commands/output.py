@@ -9,6 +9,7 @@ from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import Generations
 from grasp_xl.task import Task
 from grasp_xl.workbook.book import Book
+from grasp_xl.workbook.macros import MACRO_SUFFIX, Macros
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.run_log import Origin
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs
@@ -53,6 +54,7 @@ def written_book(
     *,
     proved: Proved | None = None,
     trade_offs: TradeOffs | None = None,
+    macros: Macros | None = None,
 ) -> WrittenBook:
     """Write the full workbook of a task and its result."""
     name = Path(book.source.name).name.encode(errors="backslashreplace").decode()
@@ -65,7 +67,15 @@ def written_book(
         set_aside=book.set_aside,
         proved=proved,
         trade_offs=trade_offs,
+        macros=macros,
     )
+
+
+def macros_at(path: Path, book: Book) -> Macros | None:
+    """Return the macros of a workbook to be written at a path: those of another, else ours."""
+    if path.suffix.lower() != MACRO_SUFFIX:
+        return None
+    return (book.macros or Macros()).at_home()
 
 
 def now() -> datetime:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grasp_xl.commands.keeping import kept_trade_offs, replaced, replaced_in_place, saved_run_of
-from grasp_xl.commands.output import Output, now, written_book
+from grasp_xl.commands.output import Output, macros_at, now, written_book
 from grasp_xl.commands.preparing import Active, prepare, refuse_infeasible, with_floor_warnings
 from grasp_xl.commands.solve import Solved
 from grasp_xl.errors import OutputError, Problem
@@ -75,7 +75,7 @@ def run_file(
     check_target(output.path, path, in_place=output.in_place, force=output.force)
     lost = [] if output.in_place else replaced(output)
     if output.history:
-        check_place(output.history, ".csv", force=output.force, option="--history")
+        check_place(output.history, (".csv",), force=output.force, option="--history")
     book = read_book(path)
     task = prepare(book, options, grasp, ask.is_asked)
     saved = saved_run_of(book, task) if go_on else None
@@ -102,7 +102,10 @@ def run_file(
         solved = prove(task, result) if prove else None
     finally:  # what the run found is kept, whatever becomes of the proof
         shown = solved.shown if solved else None
-        written = written_book(task, result, book, began, proved=shown, trade_offs=trade_offs)
+        macros = macros_at(output.path, book)
+        written = written_book(
+            task, result, book, began, proved=shown, trade_offs=trade_offs, macros=macros
+        )
         save(written.content, output.path)
         _save_history(result, output)
     if saved:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grasp_xl.commands.keeping import held_run, kept_trade_offs, replaced
-from grasp_xl.commands.output import Output, now, written_book
+from grasp_xl.commands.output import Output, macros_at, now, written_book
 from grasp_xl.commands.preparing import prepare, with_floor_warnings
 from grasp_xl.errors import InfeasibleError
 from grasp_xl.search.exact import Ending, ExactSettings, OnBound, Proof
@@ -142,7 +142,15 @@ def solve_file(
     if output is None or obstacle:
         return solved
     result, _ = held_run(book, task)
-    written = written_book(task, result, book, started, proved=solved.shown, trade_offs=trade_offs)
+    written = written_book(
+        task,
+        result,
+        book,
+        started,
+        proved=solved.shown,
+        trade_offs=trade_offs,
+        macros=macros_at(output.path, book),
+    )
     save(written.content, output.path)
     return replace(solved, output=output.path)
 

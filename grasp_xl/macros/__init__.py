@@ -11,15 +11,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from grasp_xl.workbook.layout import SHEETS, TRADE_OFFS, VALID_DESIGNS
+from grasp_xl.workbook.layout import CONFIGURATION, SHEETS, TRADE_OFFS, VALID_DESIGNS
 
 MODULES = tuple(
     Path(__file__).with_name(name) for name in ("xlwings.bas", "Dictionary.cls", "GraspXL.bas")
 )
 """Sources of the modules with code, in the order in which a project has them."""
-
-CONFIGURATION = "xlwings.conf"
-"""Sheet in which ``RunPython`` finds its settings, the last of a workbook with macros."""
 
 _BEHIND_DESIGNS = SHEETS.index(VALID_DESIGNS) + 1
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from grasp_xl.chromosome import Chromosome, is_usable
@@ -16,6 +17,7 @@ from grasp_xl.workbook.carrying import SetAside, carried
 from grasp_xl.workbook.cells import Source, cells_of
 from grasp_xl.workbook.inputs import genes_of_text, genes_text
 from grasp_xl.workbook.layout import Area, Field
+from grasp_xl.workbook.macros import Macros, read_macros
 from grasp_xl.workbook.package import Package, read_package
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK, Picker, Picks
 from grasp_xl.workbook.reading import read_option_space
@@ -79,6 +81,11 @@ class Book:
     def is_untouched(self) -> bool:
         """Whether it is a file just as we wrote it."""
         return self.package is not None and is_untouched(io.BytesIO(self.package.content))
+
+    @cached_property
+    def macros(self) -> Macros | None:
+        """Its buttons and what belongs to them; None where it has none of ours."""
+        return read_macros(self.package, self.source) if self.package else None
 
     def saved_run(self) -> SavedRun:
         """Read the state of the run that it holds.

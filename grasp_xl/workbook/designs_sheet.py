@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,14 @@ import numpy as np
 from grasp_xl.chromosome import Chromosome
 from grasp_xl.rules import TERMS
 from grasp_xl.search.result import Result, Rows, gene_columns
-from grasp_xl.workbook.layout import FITNESS_HEADER, KINDS, TABLE_ROW, VALID_DESIGNS, Area
+from grasp_xl.workbook.layout import (
+    FITNESS_HEADER,
+    KINDS,
+    MAX_DESIGNS,
+    TABLE_ROW,
+    VALID_DESIGNS,
+    Area,
+)
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.picker import (
     DESIGN_PICK,
@@ -38,9 +46,6 @@ from grasp_xl.workbook.table import (
     shown_gene,
     shown_number,
 )
-
-MAX_DESIGNS = 10_000
-"""Valid designs that the sheet lists: the newest."""
 
 PICK_HINT = (
     "Type a No. of the list: the two rows below and the What-if card show that design. Empty: the "
@@ -88,8 +93,9 @@ def write_valid_designs(
     _rows(pen, result, designs)
     _rows_to_copy(pen, result, designs, TABLE_ROW + rows + 3)
     add_table(pen, "ValidDesigns", Area(VALID_DESIGNS, TABLE_ROW, 0, 1 + rows, len(labels)), labels)
-    norms = Area(VALID_DESIGNS, TABLE_ROW + 1, labels.index(NORMALISED[0]), rows, len(NORMALISED))
-    add_colours(pen, Area(VALID_DESIGNS, TABLE_ROW + 1, 0, rows, len(labels)), norms)
+    body = Area(VALID_DESIGNS, TABLE_ROW + 1, 0, MAX_DESIGNS, len(labels))
+    norms = replace(body, column=labels.index(NORMALISED[0]), columns=len(NORMALISED))
+    add_colours(pen, body, norms)
     pen.sheet.freeze_panes(TABLE_ROW + 1, 1)
     widths = [GENE_WIDTH] * len(genes) + [*CRITERIA_WIDTHS[:-1]] + [NORM_WIDTH] * len(NORMALISED)
     pen.widths(0, NUMBER_WIDTH, GENERATION_WIDTH, *widths, CRITERIA_WIDTHS[-1], 8.5)
@@ -98,11 +104,10 @@ def write_valid_designs(
     cuts = map(labels.index, (KINDS[-1].row_label, own_units[0]))
     pages = pen.list_pages(listed, TABLE_ROW, cuts)
     pen.print_pages(*pages, pictures=[chart] if len(designs) else [])
-    if len(designs):
-        records = designs[["deviation", "structure", "cost"]].tolist()
-        scatter = structure_against_deviation("Trade-off of the valid designs", records)
-        scatter.draw(pen, book, chart, chart.column + chart.columns + 1)
-        pen.fix_row_heights()
+    records = designs[["deviation", "structure", "cost"]].tolist()
+    scatter = structure_against_deviation("Trade-off of the valid designs", records)
+    scatter.draw(pen, book, chart, chart.column + chart.columns + 1)
+    pen.fix_row_heights()
 
 
 def _rows(pen: Pen, result: Result, designs: Rows) -> None:

@@ -12,13 +12,12 @@ import numpy as np
 from grasp_xl.search.result import Result, Rows, gene_columns
 from grasp_xl.workbook.layout import HISTORY, HISTORY_ROW, KINDS, Area
 from grasp_xl.workbook.pen import Pen
-from grasp_xl.workbook.proved import Proved, charted
+from grasp_xl.workbook.proved import NOT_PROVED, Proved, charted
 from grasp_xl.workbook.result_title import write_result_title
 from grasp_xl.workbook.styles import BLUE, GREEN, GREY, Style
 from grasp_xl.workbook.table import (
     CRITERIA,
     CRITERIA_WIDTHS,
-    DASH,
     GENE_WIDTH,
     GENERATION_WIDTH,
     GRID,
@@ -33,7 +32,10 @@ MAX_HISTORY = 100_000
 """Changes that the sheet lists; beyond that, the newest and the fitness table's generations."""
 
 MAX_STEPS = 1_000
-"""Changes that the charts draw: evenly chosen on their logarithmic axis."""
+"""Changes that the charts draw: evenly chosen on their logarithmic axis.
+
+The charts' ranges have room for as many, so that a run in an open workbook need not touch them.
+"""
 
 DRAWN_DIGITS = 6
 """Decimals of what charts draw: else an axis might show only the rounding of equal values."""
@@ -51,9 +53,9 @@ CHART_COLUMNS, CHART_ROWS = 18, 16
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One line of a chart: its name in the legend, generations and values, its look."""
+    """One line of a chart: its name in the legend or the cell with it, its data, its look."""
 
-    name: str
+    name: str | list[Any]
     x: list[Any]
     y: list[Any]
     look: dict[str, Any]
@@ -89,7 +91,7 @@ def write_history(
             Line("Fittest", *_column(steps, number), COURSE),
             Line("Benchmark", *_column(benchmark, number), DASHED),
         ]
-        chart = _chart(book, title, unit, lines + best[number - 1])
+        chart = _chart(book, title, unit, [*lines, best[number - 1]])
         row = HISTORY_ROW + 1 + CHART_ROWS * ((number - 1) // 2)
         column = len(labels) + 1 + CHART_COLUMNS // 2 * ((number - 1) % 2)
         pen.insert_chart(row, column, chart)
@@ -145,12 +147,12 @@ def _steps(pen: Pen, history: Rows, left: int) -> Area:
         for number, value in enumerate(point.tolist()):
             if value == value:  # noqa: PLR0124 (no cell where the grasp has no fitness)
                 pen.write(row, left + number, round(value, DRAWN_DIGITS), Style.RATIO)
-    return Area(HISTORY, HISTORY_ROW + 1, left, max(1, len(points)), len(header))
+    return Area(HISTORY, HISTORY_ROW + 1, left, 2 * MAX_STEPS, len(header))
 
 
 def _level(pen: Pen, label: str, values: Sequence[float | None], left: int, result: Result) -> Area:
     """Write values that no generation changes, at both ends of the generation axis."""
-    drawn = [DASH if value is None else round(value, DRAWN_DIGITS) for value in values]
+    drawn = [None if value is None else round(value, DRAWN_DIGITS) for value in values]
     header = (label, *(title for _, title, _, _ in CRITERIA))
     pen.row(HISTORY_ROW, left, header, Style.HEADER)
     for offset, generation in enumerate((1, max(10, result.state.generation)), 1):
@@ -158,26 +160,27 @@ def _level(pen: Pen, label: str, values: Sequence[float | None], left: int, resu
     return Area(HISTORY, HISTORY_ROW + 1, left, 2, len(header))
 
 
-def _proved_lines(pen: Pen, result: Result, proved: Proved | None, left: int) -> list[list[Line]]:
-    """Write what the exact search says, and return its line, if it has one, for each chart.
+def _proved_lines(pen: Pen, result: Result, proved: Proved | None, left: int) -> list[Line]:
+    """Write what the exact search says, and return its line for each chart.
 
     That is the value of its grasp; of what is minimised, as long as the grasp is not proved to be
-    the best, the bound.
+    the best, the bound.  Without a grasp there is a line without points.
     """
-    if proved is None:
-        return [[] for _ in CRITERIA]
-    grasp = proved.grasp
+    grasp = proved.grasp if proved else None
+    label = proved.label if proved else NOT_PROVED
     values: list[float | None] = [None] * len(CRITERIA)
-    names = [proved.label] * len(CRITERIA)
+    names = [label if grasp else NOT_PROVED] * len(CRITERIA)
     if grasp:
         values = [grasp.fos, *grasp.terms, grasp.divergence]
     minimised = charted(result.rules.criterion)
-    if minimised is not None and proved.proof.status != "optimal":
+    if proved and minimised is not None and proved.proof.status != "optimal":
         values[minimised], names[minimised] = proved.proof.bound, PROVED_BOUND
-    area = _level(pen, proved.label, values, left, result)
+    area = _level(pen, label, values, left, result)
+    behind = area.row + area.rows
+    pen.row(behind, left, ("Legend", *names), Style.CENTRED)
     return [
-        [] if value is None else [Line(name, *_column(area, number), PROVED_LINE)]
-        for number, (name, value) in enumerate(zip(names, values, strict=True), 1)
+        Line([HISTORY, behind, left + number], *_column(area, number), PROVED_LINE)
+        for number in range(1, 1 + len(CRITERIA))
     ]
 
 

@@ -24,6 +24,9 @@ SHEETS = (OPTION_SPACE, GA, VALID_DESIGNS, FITNESS_TABLE, HISTORY, GRASP, RUN_LO
 TRADE_OFFS = "Trade-offs"
 """Sheet of the workbooks that ``front`` writes, behind the valid designs."""
 
+CONFIGURATION = "xlwings.conf"
+"""Sheet in which the buttons of a workbook with macros find their settings: its last."""
+
 TITLE = "INPUT PARAMETERS (ALL DATA in GRAMS, MILLIMETERS, and NEWTONS)"
 
 
@@ -393,6 +396,9 @@ class Card:
 
 TABLE_ROW = 7
 """Header row of the valid-design list; a picked row stands above it."""
+
+MAX_DESIGNS = 10_000
+"""Designs that a list has room for: charts, colours and the pick reach as far."""
 
 HISTORY_ROW = 2
 """Header row of the history."""

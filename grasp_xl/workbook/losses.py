@@ -17,6 +17,7 @@ from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank, normal, same_formula
 from grasp_xl.workbook.extras import AREA_NAMES, VALIDATIONS, Extra, not_among, read_extras
 from grasp_xl.workbook.layout import CALC, GA, GRASP, OPTION_SPACE, RUN_LOG, Area
+from grasp_xl.workbook.macros import BUTTONS
 from grasp_xl.workbook.package import Package
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK
 from grasp_xl.workbook.reading import find_sheet
@@ -30,12 +31,15 @@ MAX_NAMED = 10
 
 OBJECTS = {
     "pictures": ("/media/", b""),
-    "shapes or text boxes": ("/drawings/drawing", b"<xdr:sp[ />]"),
+    "shapes or text boxes": (
+        "/drawings/drawing",
+        b'<xdr:sp(?=[ />])(?![^>]*macro="[^"]*(%s)")' % "|".join(BUTTONS.values()).encode(),
+    ),  # Excel keeps a second picture of each button there
     "threaded comments": ("/threadedComments/", b"<threadedComment "),
     "macro modules": ("/vbaProject.bin", b""),
     "pivot tables": ("/pivotTables/pivotTable", b""),
     "links to other workbooks": ("/externalLinks/externalLink", b""),
-    "controls": ("/ctrlProps/", b""),
+    "controls": ("/drawings/vmlDrawing", b'ObjectType="(?!Note)'),
     "sparklines": ("/worksheets/sheet", b"<x14:sparkline>"),
 }
 """Objects of which we have none, or none in another place: what the names of their parts hold, and

@@ -182,6 +182,11 @@ class Pen:
         look = {"type": "errors", "format": self.formats.over(Style.HIDDEN)}
         self.sheet.conditional_format(area.row, area.column, last_row, last_column, look)
 
+    def fill_if_used(self, cell: Area, colour: str) -> None:
+        """Give a cell a colour as long as it holds anything."""
+        look = {"type": "no_blanks", "format": self.formats.filled(colour)}
+        self.sheet.conditional_format(cell.row, cell.column, cell.row, cell.column, look)
+
     def note(self, row: int, column: int, text: str) -> None:
         """Put a note on a cell: it shows while the pointer is over it."""
         look = {"x_scale": 2, "font_name": FONT, "font_size": 9}

@@ -10,7 +10,15 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from grasp_xl.chromosome import Chromosome
-from grasp_xl.workbook.layout import KINDS, TABLE_ROW, TRADE_OFFS, VALID_DESIGNS, WHAT_IF, Area
+from grasp_xl.workbook.layout import (
+    KINDS,
+    MAX_DESIGNS,
+    TABLE_ROW,
+    TRADE_OFFS,
+    VALID_DESIGNS,
+    WHAT_IF,
+    Area,
+)
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import Style
 
@@ -137,8 +145,8 @@ class Picker:
                 "validate": "integer",
                 "criteria": "between",
                 "minimum": 1,
-                "maximum": rows,
-                "error_message": f"The list has the numbers 1 to {rows}.",
+                "maximum": f"=MAX(1,{self._column(NUMBER_COLUMN, MAX_DESIGNS)})",
+                "error_message": "Type a number of the list.",
             },
         )
         pen.row(PICK_ROW + 1, 1, slot_labels(slots), Style.HEADER)

@@ -11,7 +11,6 @@ from grasp_xl.chromosome import Chromosome
 from grasp_xl.search.result import Result
 from grasp_xl.task import Task
 from grasp_xl.workbook.carrying import NOTHING_ASIDE, SetAside
-from grasp_xl.workbook.designs_sheet import MAX_DESIGNS
 from grasp_xl.workbook.history_sheet import MAX_HISTORY, listed_from
 from grasp_xl.workbook.inputs import (
     BENCHMARK_GENES,
@@ -20,7 +19,7 @@ from grasp_xl.workbook.inputs import (
     parameter_rows,
     space_rows,
 )
-from grasp_xl.workbook.layout import RUN_LOG, Area
+from grasp_xl.workbook.layout import MAX_DESIGNS, RUN_LOG, Area
 from grasp_xl.workbook.pen import ROW_HEIGHT, Pen
 from grasp_xl.workbook.proved import NOT_PROVED, Proved
 from grasp_xl.workbook.styles import Style

@@ -5,12 +5,16 @@ from __future__ import annotations
 import errno
 import os
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 from grasp_xl.errors import OutputError, UsageError
 
 LOCK_FILES = ("~${name}", ".~lock.{name}#")
 """Files that Excel and LibreOffice keep beside a workbook that they hold open."""
+
+WORKBOOK_SUFFIXES = (".xlsx", ".xlsm")
+"""How the name of a workbook ends; the second, with macros."""
 
 REASONS = {
     errno.ENOSPC: ("the disk is full", "free some space, or write to another disk"),
@@ -24,14 +28,14 @@ REASONS = {
 # --- may it be written ---
 
 
-def check_place(target: Path, suffix: str, *, force: bool, option: str = "-o") -> None:
+def check_place(target: Path, suffixes: Sequence[str], *, force: bool, option: str = "-o") -> None:
     """Refuse a place where no file could be put in the end, before any work is done.
 
     Parameters
     ----------
     target : Path
-    suffix : str
-        What its name must end in.
+    suffixes : sequence of str
+        What its name may end in.
     force : bool
         Put it there though another program holds it open.
     option : str
@@ -40,7 +44,7 @@ def check_place(target: Path, suffix: str, *, force: bool, option: str = "-o") -
     Raises
     ------
     UsageError
-        If the name does not end in ``suffix``.
+        If the name does not end in one of ``suffixes``.
     OutputError
         If the folder is missing or read-only, or the file is held open or no file at all.
     """
@@ -56,11 +60,12 @@ def check_place(target: Path, suffix: str, *, force: bool, option: str = "-o") -
                 )
     except OSError as error:
         raise _cannot_write(target, error) from error
-    if target.suffix.lower() != suffix:
+    if target.suffix.lower() not in suffixes:
+        expected = " or ".join(map(repr, suffixes))
         raise UsageError(
-            f"{target}: found a name that ends in {target.suffix!r}, expected {suffix!r}.",
+            f"{target}: found a name that ends in {target.suffix!r}, expected {expected}.",
             where=str(target),
-            hint=f"Name a file such as {target.stem or 'result'}{suffix}",
+            hint=f"Name a file such as {target.stem or 'result'}{suffixes[0]}",
         )
 
 
@@ -93,7 +98,7 @@ def check_target(target: Path, source: Path, *, in_place: bool, force: bool) -> 
     OutputError
         If it cannot be written, or is held open.
     """
-    check_place(target, ".xlsx", force=force)
+    check_place(target, WORKBOOK_SUFFIXES, force=force)
     if not in_place and target.exists() and source.exists() and target.samefile(source):
         raise UsageError(
             f"The output {target} is the input.",

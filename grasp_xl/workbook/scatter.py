@@ -1,4 +1,9 @@
-"""Native charts of designs: a point each, a colour a series; their data stand beside them."""
+"""Native charts of designs: a point each, a colour a series; their data stand beside them.
+
+A chart has all its series, and ranges as long as the longest list, whatever it draws: so a run in
+an open workbook need not touch it.  The legend is in cells above it, coloured where they say
+something, since a chart's own would show the empty series.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +13,7 @@ from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from typing import Any
 
-from grasp_xl.workbook.layout import TABLE_ROW, Area
+from grasp_xl.workbook.layout import MAX_DESIGNS, TABLE_ROW, Area
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import SEQUENCE, Style
 from grasp_xl.workbook.table import GRID
@@ -28,7 +33,7 @@ class Scatter:
     x_style, y_style : Style
         Looks of the data.
     names : sequence of str
-        The series, as the legend shows them: eight at most.
+        The series, as the legend shows them: as many as ``SEQUENCE`` has colours at most.
     points : sequence of (float, float, int)
         x, y, and number of the series of each design.
     """
@@ -44,16 +49,18 @@ class Scatter:
     def draw(self, pen: Pen, book: Any, place: Area, left: int) -> int:  # noqa: ANN401 (untyped library)
         """Insert the chart at a place, its data from a column on; return the column behind them."""
         pen.row(TABLE_ROW, left, (self.x_label, *self.names), Style.HEADER)
+        pen.row(TABLE_ROW, place.column + 1, self.names, Style.LEGEND)
         for row, (x, y, number) in enumerate(self.points, TABLE_ROW + 1):
             pen.write(row, left, x, self.x_style)
             pen.write(row, left + 1 + number, y, self.y_style)
-        first, last = TABLE_ROW + 1, TABLE_ROW + len(self.points)
+        first, last = TABLE_ROW + 1, TABLE_ROW + MAX_DESIGNS
         chart = book.add_chart({"type": "scatter"})
-        for number, (name, colour) in enumerate(zip(self.names, SEQUENCE, strict=False), left + 1):
+        for number, colour in enumerate(SEQUENCE, left + 1):
             fill = {"color": colour}
+            pen.fill_if_used(Area(pen.name, TABLE_ROW, place.column + number - left), colour)
             chart.add_series(
                 {
-                    "name": name,
+                    "name": [pen.name, TABLE_ROW, number],
                     "categories": [pen.name, first, left, last, left],
                     "values": [pen.name, first, number, last, number],
                     "marker": {"type": "circle", "size": 6, "border": fill, "fill": fill},
@@ -62,10 +69,10 @@ class Scatter:
         chart.set_title({"name": self.title, "name_font": {"size": 11}})
         chart.set_x_axis({"name": self.x_label, "major_gridlines": GRID, "label_position": "low"})
         chart.set_y_axis({"name": self.y_label, "major_gridlines": GRID})
-        chart.set_legend({"position": "bottom"})
+        chart.set_legend({"none": True})
         chart.set_size({"width": WIDTH, "height": HEIGHT})
         pen.insert_chart(place.row, place.column, chart)
-        return left + 1 + len(self.names)
+        return left + 1 + len(SEQUENCE)
 
 
 def structure_against_deviation(

@@ -28,6 +28,9 @@ BLACK = "#202020"
 SEQUENCE = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#000000")
 """Colours of series, told apart by the colour-blind (Okabe and Ito)."""
 
+BRIGHT = 140
+"""Luma (0 to 255) from which black is easier to read on a colour than white."""
+
 _LINE = {"border": 1, "border_color": "#BFBFBF"}
 _BAND = {"top": 1, "bottom": 1, "top_color": "#BFBFBF", "bottom_color": "#BFBFBF"}
 """A heading's line over several cells: no upright lines through its text."""
@@ -116,7 +119,20 @@ class Style(Enum):
     STATUS = "status", {"bold": True, "text_wrap": True, "valign": "top"}
     DIFFERENCE = "difference", {**_NUMBER, "num_format": "0.0E+00;-0.0E+00;0"}
     CENTRED = "centred", {**_COMPUTED, "align": "center"}
+    LEGEND = "legend", {"bold": True, "align": "center", "valign": "vcenter", "text_wrap": True}
     DATE = "date", {**_COMPUTED, "num_format": "yyyy-mm-dd hh:mm:ss", "align": "left"}
+
+
+def text_colour(fill: str) -> str:
+    """Return black or white, whichever is easier to read on a colour.
+
+    Examples
+    --------
+    >>> text_colour("#F0E442"), text_colour("#0072B2")
+    ('#000000', '#FFFFFF')
+    """
+    red, green, blue = bytes.fromhex(fill.removeprefix("#"))
+    return "#000000" if 0.299 * red + 0.587 * green + 0.114 * blue > BRIGHT else "#FFFFFF"
 
 
 class Formats:
@@ -129,6 +145,10 @@ class Formats:
     def over(self, style: Style) -> Format:
         """Return a style without a font, to lie over a cell's own."""
         return self._book.add_format(style.look)
+
+    def filled(self, colour: str) -> Format:
+        """Return a fill with a text that can be read on it, to lie over a cell's own."""
+        return self._book.add_format({"bg_color": colour, "font_color": text_colour(colour)})
 
     def __getitem__(self, style: Style) -> Format:
         if style.name not in self._made:

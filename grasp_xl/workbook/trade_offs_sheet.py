@@ -161,8 +161,7 @@ def write_trade_offs(
     cuts = map(labels.index, (KINDS[-1].row_label, own_units[0], WEIGHTS[0]))
     pages = pen.list_pages(listed, TABLE_ROW, cuts)
     pen.print_pages(*pages, pictures=[charts] if designs else [])
-    if designs:
-        _charts(pen, book, charts, designs, grasps)
+    _charts(pen, book, charts, designs, grasps)
     pen.fix_row_heights()
 
 

@@ -21,6 +21,7 @@ from grasp_xl.workbook.ga_sheet import Shown, parameter_values, user_block, writ
 from grasp_xl.workbook.grasp_sheet import Picture, write_grasp
 from grasp_xl.workbook.history_sheet import write_history
 from grasp_xl.workbook.layout import Layout
+from grasp_xl.workbook.macros import Macros, add_buttons, add_macros, write_settings
 from grasp_xl.workbook.option_space_sheet import write_option_space
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.picker import DESIGN_PICK, NO_PICKS, TRADE_OFF_PICK, Picks
@@ -42,6 +43,7 @@ def full_workbook(
     set_aside: SetAside = NOTHING_ASIDE,
     proved: Proved | None = None,
     trade_offs: TradeOffs | None = None,
+    macros: Macros | None = None,
 ) -> WrittenBook:
     """Write the full workbook of a run.
 
@@ -62,6 +64,8 @@ def full_workbook(
         What the exact search says.
     trade_offs : TradeOffs, optional
         Gives a sheet of its own.
+    macros : Macros, optional
+        Make it a workbook with buttons.
     """
     best = result.best or (proved.grasp if proved else None) or result.benchmark
     on_card = what_if or picks.trade_off or picks.design
@@ -82,6 +86,8 @@ def full_workbook(
     sheets = list(layout.SHEETS)
     if trade_offs:
         sheets.insert(sheets.index(layout.VALID_DESIGNS) + 1, layout.TRADE_OFFS)
+    if macros:
+        sheets.append(layout.CONFIGURATION)
     pens = {name: Pen(book, formats, name, run) for name in sheets}
     write_option_space(pens[layout.OPTION_SPACE], task.space, live=True)
     cards = write_ga(pens[layout.GA], plan, task, result, shown)
@@ -107,6 +113,10 @@ def full_workbook(
     blocks = [(layout.USER_BLOCK.label, benchmark.block, result.benchmark)]
     blocks += [(card.title, card.block, card.grasp) for card in cards.values()]
     write_calc(pens[layout.CALC], task.space, _inputs(task), blocks, plan)
+    if macros:
+        add_buttons(pens[layout.GA])
+        write_settings(pens[layout.CONFIGURATION], macros.settings)
+        add_macros(book, list(pens.values()), macros)
     pens[layout.GA].sheet.activate()
     book.set_custom_property(STAMP_PROPERTY, PLACEHOLDER)
     book.close()
