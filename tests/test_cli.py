@@ -27,6 +27,7 @@ from python_calamine import CalamineWorkbook
 from grasp_xl import __main__, __version__
 from grasp_xl.cli import options, show
 from grasp_xl.cli.program import app, main
+from grasp_xl.commands import sentences
 from grasp_xl.commands.solve import solve_file
 from grasp_xl.search import stop
 from grasp_xl.search.exact import ExactSettings
@@ -718,7 +719,7 @@ def test_the_best_of_several_is_proved_before_the_others(bracket: Path) -> None:
     """Where the order of the others is open when time is up, the first is still said to be it."""
     solved = solve_file(bracket, Parameters(), ExactSettings(top=2))
     stopped = replace(solved, proof=replace(solved.proof, status="feasible"))
-    told = show.proof_sentence(stopped)
+    told = sentences.proof(stopped)
     assert re.match(r"Proved: no grasp has a divergence below [\d.]+, so the first is the", told)
     assert stopped.shown.title == "Proved optimum"
 

@@ -20,7 +20,7 @@ LAYERS = (
     ("task",),
     ("workbook", "macros"),
     ("commands",),
-    ("cli",),
+    ("cli", "live"),
 )
 """Modules and packages, from the bottom up; each may import its own layer and those below."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,11 +14,12 @@ from rich.progress import BarColumn, SpinnerColumn, TextColumn
 from rich.progress import Progress as Bars
 from rich.table import Table
 
+from grasp_xl.commands import sentences
 from grasp_xl.compiled import is_compiled
 from grasp_xl.errors import Problem
 from grasp_xl.grasp import Grasp
-from grasp_xl.rounding import TOLD_DIGITS, percent, rounded_down
-from grasp_xl.rules import DIVERGENCE, SLACK, TERMS, UNITS, Rules
+from grasp_xl.rounding import percent
+from grasp_xl.rules import DIVERGENCE, TERMS, UNITS, Rules
 from grasp_xl.search.stop import Progress
 
 if TYPE_CHECKING:
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from grasp_xl.commands.run import Ran
     from grasp_xl.commands.solve import Solved
     from grasp_xl.search.proven_floors import ProvenFloors
-    from grasp_xl.search.result import Result
     from grasp_xl.task import Task
 
 REFRESH_SECONDS = 0.2
@@ -233,31 +232,10 @@ def run(ran: Ran, path: Path) -> None:
     if solved and solved.shown.grasp:
         rows.append((solved.shown.label, solved.shown.grasp))
     grasps(rows, task.rules)
-    state = result.state
-    if result.best:
-        line(
-            f"Best {task.rules.criterion.name} {result.best.value:.6g}, "
-            f"found at generation {state.improved_at:,}."
-        )
-    elif state.generation:
-        line("No grasp met FoS and clearance yet: run more generations, or another seed.")
-    if solved:
-        line(f"{proof_sentence(solved)} {_compared(result, solved)}".strip())
-    line(
-        f"{state.generation:,} generations in {result.seconds:.2f} s "
-        f"({ran.seconds:.2f} s in all), stopped by {result.stop_reason}. Wrote {path}."
-    )
-
-
-def _compared(result: Result, solved: Solved) -> str:
-    """Say how far the best of a genetic run is from the best grasp that is known."""
-    best, known = result.best, solved.shown.grasp
-    if best is None or known is None:
-        return "The genetic run found none." if known else ""
-    if best.value <= known.value + SLACK * abs(known.value):
-        return "The genetic run found a grasp as good."
-    above = f", {percent(best.value / known.value - 1)}" if known.value > 0 else ""
-    return f"The best of the genetic run lies {best.value - known.value:,.6g}{above} above it."
+    *told, last = sentences.run(ran)
+    for sentence in told:
+        line(sentence)
+    line(f"{last} Wrote {path}.")
 
 
 def solve(solved: Solved) -> None:
@@ -272,7 +250,7 @@ def solve(solved: Solved) -> None:
     if solved.floors:
         table.add_row("floor", "", "", *_shown_floors(solved.floors), "")
     _out.print(table)
-    line(proof_sentence(solved))
+    line(sentences.proof(solved))
     if solved.output:
         line(f"Wrote {solved.output}.")
 
@@ -321,42 +299,7 @@ def _shown_floors(floors: ProvenFloors) -> list[str]:
     ]
 
 
-def proof_sentence(solved: Solved) -> str:
-    """Say in a sentence what an exact search proved, and why it stopped if it did."""
-    proof, settings = solved.proof, solved.settings
-    criterion = solved.task.rules.criterion
-    unit = f" {UNITS[criterion.single]}" if criterion.single else ""
-    whose = f" of {settings.min_elements} or more elements" if settings.min_elements > 1 else ""
-    whose += " that meets all goals" if settings.meet_goals else ""
-    none = f"no grasp{whose} has a {criterion.name} below {proof.bound:,.6g}{unit}"
-    if proof.status == "optimal":
-        these = len(proof.designs)
-        ranked = f"these are the {these} best grasps, and " if these > 1 else ""
-        if these < settings.top:
-            ranked = f"there are only {these} different grasps, and "
-        return f"Proved: {ranked}{none} ({proof.seconds:.2f} s)."
-    ended = f"{solved.ended} ({proof.seconds:.2f} s)"
-    if proof.gap is None:
-        return f"No grasp found yet; {none}; {ended}."
-    best = proof.designs[0].value
-    if proof.is_best_proved:
-        return f"Proved: {none}, so the first is the best of all; the others are not: {ended}."
-    return f"Best found {best:,.6g}{unit}; {none} (gap {percent(proof.gap)}); {ended}."
-
-
 def check(checked: Checked) -> None:
     """Print what ``check`` found."""
-    space = checked.space
-    for kind in space.kinds:
-        line(
-            f"{kind.name}: {kind.total} places, {kind.count_min} to {kind.most} a grasp, "
-            f"{kind.force_n:g} N, ${kind.price:g} each"
-        )
-    line(f"part: {space.part.mass_g:,.6g} g, {space.part.weight_n:,.6g} N")
-    number = checked.search_space
-    line(f"different grasps: {Decimal(number):.4e}" if number else "different grasps: 0")
-    line(f"FoS of the most elements: {rounded_down(checked.max_fos, TOLD_DIGITS):g}")
-    for term, floor in checked.floors._asdict().items() if checked.floors else ():
-        line(f"no {term} below {floor:,.6g} {UNITS[term]}")
-    if not checked.obstacle:
-        line("No problem found.")
+    for sentence in sentences.check(checked):
+        line(sentence)

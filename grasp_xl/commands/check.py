@@ -10,7 +10,7 @@ from grasp_xl.search.feasibility import lifting_counts, max_fos
 from grasp_xl.search.floors import floors, search_space
 from grasp_xl.space import OptionSpace
 from grasp_xl.task import Parameters, settle_requirements
-from grasp_xl.workbook.book import read_book
+from grasp_xl.workbook.book import Book, read_book
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -42,7 +42,11 @@ def check_file(path: Path, options: Parameters) -> Checked:
     InputError
         With every problem found.
     """
-    book = read_book(path)
+    return check_book(read_book(path), options)
+
+
+def check_book(book: Book, options: Parameters) -> Checked:
+    """Look whether any grasp of a workbook can exist, and what it can reach."""
     space, warnings, obstacle = book.space, book.warnings, None
     need = settle_requirements(space, options.over(book.parameters))
     least = floors(space, need) if lifting_counts(space, need) else None

@@ -49,7 +49,7 @@ def replaced_in_place(output: Output, previous: Book) -> list[Problem]:
     """
     if previous.package is None or previous.is_untouched:
         return []
-    target, written = output.path, _as_written(previous)
+    target, written = output.path, as_written(previous)
     gone = sheet_gone(previous.source, written)
     if gone and not output.force:
         raise OutputError(
@@ -107,7 +107,7 @@ def _lost(target: Path, lost: list[str]) -> list[Problem]:
     return [Problem(str(target), found, "only what grasp_xl writes", hint)] if lost else []
 
 
-def _as_written(book: Book) -> Written:
+def as_written(book: Book) -> Written:
     """Write a workbook again as it was, with its own cards and results, to know what is ours."""
     if layout.USER_BLOCK.name not in book.source.names:  # an export
         return Written(export_workbook(book.space), same_inputs=False)

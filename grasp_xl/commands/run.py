@@ -17,7 +17,9 @@ from grasp_xl.search.stop import Interrupt, StopRule
 from grasp_xl.task import Parameters, Task
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book
+from grasp_xl.workbook.reading_run import SavedRun
 from grasp_xl.workbook.saving import check_place, check_target, save
+from grasp_xl.workbook.trade_offs_sheet import TradeOffs
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -39,6 +41,79 @@ class Ran:
     result: Result
     solved: Solved | None
     seconds: float
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Ready:
+    """A workbook whose run may begin.
+
+    Parameters
+    ----------
+    book : Book
+    task : Task
+    saved : SavedRun or None
+        The run that goes on.
+    trade_offs : TradeOffs or None
+        Kept in the workbook.
+    """
+
+    book: Book
+    task: Task
+    saved: SavedRun | None
+    trade_offs: TradeOffs | None
+
+    def search(self, rules: Sequence[StopRule], on_progress: OnProgress | None = None) -> Result:
+        """Run the genetic search."""
+        task, saved = self.task, self.saved
+        result = search(
+            task.space,
+            task.rules,
+            task.settings,
+            task.benchmark.chromosome,
+            rules,
+            state=saved.state if saved else None,
+            on_progress=on_progress,
+        )
+        if saved and result.state.generation == saved.state.generation:
+            result = replace(result, matrix=saved.matrix, children=saved.children)
+        return result
+
+
+def get_ready(
+    book: Book,
+    options: Parameters,
+    ask: Interrupt,
+    *,
+    grasp: Active = (None, None),
+    go_on: bool = False,
+) -> Ready:
+    """Settle what a run of a workbook does, and refuse one that can find nothing.
+
+    Parameters
+    ----------
+    book, options
+    ask : Interrupt
+        Once asked, it ends what is looked for.
+    grasp : Active
+        The user-defined grasp, where options name it.
+    go_on : bool
+        Go on from the run that the workbook holds.
+
+    Raises
+    ------
+    InfeasibleError
+        If no grasp meets FoS and clearance.
+    InputError
+        If there is no run to go on from.
+    """
+    task = prepare(book, options, grasp, ask.is_asked)
+    saved = saved_run_of(book, task) if go_on else None
+    task = task.warned(_gaps(saved.state) if saved else ())
+    trade_offs, stale = kept_trade_offs(book, task)
+    task = task.warned(stale)
+    refuse_infeasible(task, ask.is_asked)
+    task = with_floor_warnings(task, floors(task.space, task.rules.requirements))
+    return Ready(book, task, saved, trade_offs)
 
 
 def run_file(
@@ -76,35 +151,23 @@ def run_file(
     lost = [] if output.in_place else replaced(output)
     if output.history:
         check_place(output.history, (".csv",), force=output.force, option="--history")
-    book = read_book(path)
-    task = prepare(book, options, grasp, ask.is_asked)
-    saved = saved_run_of(book, task) if go_on else None
-    task = task.warned(_gaps(saved.state) if saved else ())
-    trade_offs, stale = kept_trade_offs(book, task)
-    task = task.warned(stale)
-    refuse_infeasible(task, ask.is_asked)
-    task = with_floor_warnings(task, floors(task.space, task.rules.requirements))
-    lost += replaced_in_place(output, book) if output.in_place else []
-    task = task.warned(lost)
-    result = search(
-        task.space,
-        task.rules,
-        task.settings,
-        task.benchmark.chromosome,
-        [ask, *stop(task)],
-        state=saved.state if saved else None,
-        on_progress=on_progress,
-    )
-    if saved and result.state.generation == saved.state.generation:
-        result = replace(result, matrix=saved.matrix, children=saved.children)
+    ready = get_ready(read_book(path), options, ask, grasp=grasp, go_on=go_on)
+    lost += replaced_in_place(output, ready.book) if output.in_place else []
+    ready = replace(ready, task=ready.task.warned(lost))
+    book, task, saved = ready.book, ready.task, ready.saved
+    result = ready.search([ask, *stop(task)], on_progress)
     solved = None
     try:
         solved = prove(task, result) if prove else None
     finally:  # what the run found is kept, whatever becomes of the proof
-        shown = solved.shown if solved else None
-        macros = macros_at(output.path, book)
         written = written_book(
-            task, result, book, began, proved=shown, trade_offs=trade_offs, macros=macros
+            task,
+            result,
+            book,
+            began,
+            proved=solved.shown if solved else None,
+            trade_offs=ready.trade_offs,
+            macros=macros_at(output.path, book),
         )
         save(written.content, output.path)
         _save_history(result, output)

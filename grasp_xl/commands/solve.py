@@ -1,13 +1,14 @@
 """How ``solve`` and ``run`` find the best grasp of all, and prove it."""
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grasp_xl.commands.keeping import held_run, kept_trade_offs, replaced
 from grasp_xl.commands.output import Output, macros_at, now, written_book
 from grasp_xl.commands.preparing import prepare, with_floor_warnings
-from grasp_xl.errors import InfeasibleError
+from grasp_xl.errors import InfeasibleError, Problem
 from grasp_xl.search.exact import Ending, ExactSettings, OnBound, Proof
 from grasp_xl.search.exact import solve as prove
 from grasp_xl.search.floors import floors
@@ -18,7 +19,7 @@ from grasp_xl.search.stop import Interrupt, Stop
 from grasp_xl.search.unmet_goals import why_none_meets_all
 from grasp_xl.search.warm import load_exact_search
 from grasp_xl.task import Parameters, Task
-from grasp_xl.workbook.book import read_book
+from grasp_xl.workbook.book import Book, read_book
 from grasp_xl.workbook.proved import Proved, among
 from grasp_xl.workbook.saving import check_target, save
 
@@ -110,8 +111,62 @@ def solve_file(
     if output:
         check_target(output.path, path, in_place=False, force=output.force)
     lost = replaced(output) if output else []
-    ask = interrupt or Interrupt()
     book = read_book(path)
+    solved = solve_book(
+        book,
+        options,
+        settings,
+        interrupt or Interrupt(),
+        warnings=lost,
+        on_progress=on_progress,
+        clock=clock,
+    )
+    if output is None or solved.obstacle:
+        return solved
+    trade_offs, stale = kept_trade_offs(book, solved.task)
+    task = solved.task.warned(stale)
+    result, _ = held_run(book, task)
+    written = written_book(
+        task,
+        result,
+        book,
+        started,
+        proved=solved.shown,
+        trade_offs=trade_offs,
+        macros=macros_at(output.path, book),
+    )
+    save(written.content, output.path)
+    return replace(solved, task=task, output=output.path)
+
+
+def solve_book(
+    book: Book,
+    options: Parameters,
+    settings: ExactSettings,
+    ask: Interrupt,
+    *,
+    warnings: Sequence[Problem] = (),
+    on_progress: OnBound | None = None,
+    clock: float | None = None,
+) -> Solved:
+    """Find the best grasps of a workbook, with proof, and the floors of its criteria.
+
+    Parameters
+    ----------
+    book, options, settings, on_progress
+        As in :func:`solve_file`.
+    ask : Interrupt
+    warnings : sequence of Problem
+        Of the task.
+    clock : float, optional
+        When the work began, on ``time.perf_counter``.
+
+    Raises
+    ------
+    InfeasibleError
+        If no grasp can serve as the benchmark.
+    """
+    clock = time.perf_counter() if clock is None else clock
     load_exact_search()
     began = time.perf_counter()
 
@@ -121,9 +176,7 @@ def solve_file(
     def stop() -> bool:
         return ask.asked or left() <= 0
 
-    task = prepare(book, options, stop=stop)
-    trade_offs, stale = kept_trade_offs(book, task) if output else (None, [])
-    task = task.warned([*lost, *stale])
+    task = prepare(book, options, stop=stop).warned(warnings)
     space, rules = task.space, task.rules
     known = [task.benchmark.chromosome] if task.benchmark.feasible else []
     limited = replace(settings, time_limit_s=max(0.0, left()))
@@ -138,27 +191,13 @@ def solve_file(
         if proof.status == "infeasible":
             obstacle = why_none_meets_all(space, rules, least.least, settings.min_elements, stop)
     seconds = time.perf_counter() - clock
-    solved = Solved(task, settings, proof, least, seconds, ask.asked, obstacle)
-    if output is None or obstacle:
-        return solved
-    result, _ = held_run(book, task)
-    written = written_book(
-        task,
-        result,
-        book,
-        started,
-        proved=solved.shown,
-        trade_offs=trade_offs,
-        macros=macros_at(output.path, book),
-    )
-    save(written.content, output.path)
-    return replace(solved, output=output.path)
+    return Solved(task, settings, proof, least, seconds, ask.asked, obstacle)
 
 
 def prove_run(
     task: Task,
     result: Result,
-    output: Path,
+    output: Path | None,
     time_limit_s: float,
     *,
     interrupt: Interrupt | None = None,
@@ -171,7 +210,7 @@ def prove_run(
     Parameters
     ----------
     task, result
-    output : Path
+    output : Path, optional
         Workbook that will show it.
     time_limit_s : float
     interrupt : Interrupt, optional

@@ -22,9 +22,8 @@ from grasp_xl.workbook.package import Package
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK
 from grasp_xl.workbook.reading import find_sheet
 from grasp_xl.workbook.reading_polygon import corner_cells
-from grasp_xl.workbook.stored import StoredCells
 from grasp_xl.workbook.table import DASH, NO, YES
-from grasp_xl.workbook.written import WrittenBook
+from grasp_xl.workbook.written import WrittenBook, WrittenCell
 
 MAX_NAMED = 10
 """Things of a kind, on a sheet, that a message names."""
@@ -103,12 +102,12 @@ def losses(package: Package, source: Source, written: Written) -> list[str]:
     ]
     theirs, ours = read_extras(package), read_extras(copy)
     found += _extras(theirs.of_book, ours.of_book)
-    cells = Comparison(source, Source(StoredCells(copy)), written)
+    cells = Comparison(source, written)
     for sheet, our_name in own.items():
         if sheet in source.sheets:
             changes = list(cells.changes(sheet, our_name))
             for what in (CELLS, FORMULAS, CHANGED):
-                found += _named(what, [where for kind, where in changes if kind == what])
+                found += _named(what, [cell.where for kind, cell in changes if kind == what])
             same_sizes = written.same_inputs and our_name != RUN_LOG
             extras = (theirs.by_sheet[sheet], ours.by_sheet[our_name])
             found += _extras(*extras, same_sizes=same_sizes)
@@ -162,11 +161,10 @@ def _named(what: str, places: list[str]) -> list[str]:
 
 
 class Comparison:
-    """Compares the cells of a workbook with those of its copy."""
+    """Compares the cells of a workbook with what we would write into it as it is."""
 
-    def __init__(self, source: Source, copy: Source, written: Written) -> None:
+    def __init__(self, source: Source, written: Written) -> None:
         self._source = source
-        self._copy = copy
         self._written = written
         areas = [source.names[name] for name in INPUT_NAMES if name in source.names]
         if layout.APPROXIMATION_POLYGON in source.names:
@@ -174,38 +172,37 @@ class Comparison:
             areas.append(replace(corners, column=corners.column - 1, columns=1 + corners.columns))
         self._inputs = {cell for area in areas for row in cells_of(area) for cell in row}
 
-    def changes(self, sheet: str, our_name: str) -> Iterator[tuple[str, str]]:
+    def changes(self, sheet: str, our_name: str) -> Iterator[tuple[str, Area]]:
         """Yield what would be lost of a sheet, and the cell where it stands."""
         ours = self._written.book.sheets[our_name].cells
         for row, column in sorted(filled_cells(self._source, sheet)):
             if our_name == RUN_LOG and column < LOG_COLUMNS:
                 continue
-            cell, copied = Area(sheet, row, column), Area(our_name, row, column)
+            cell = Area(sheet, row, column)
             if (row, column) in ours:
-                what = self._change(cell, copied)
+                what = self._change(cell, our_name, ours[row, column])
             else:
                 what = "" if cell in self._inputs else CELLS
             if what:
-                yield what, cell.where
+                yield what, cell
 
-    def _change(self, cell: Area, copied: Area) -> str:
+    def _change(self, cell: Area, our_name: str, ours: WrittenCell) -> str:
         """Return what is lost of a cell where we have one, too; nothing if it is empty."""
-        formula, our_formula = self._formula(self._source, cell), self._formula(self._copy, copied)
+        formula, our_formula = self._formula(cell), same_formula(ours.formula)
         if cell in self._source.worked_out or (cell in self._inputs and not formula):
             return ""
         if formula:
-            ours = our_formula == formula or (cell in self._inputs and _alike(formula, our_formula))
-            return "" if ours else FORMULAS
-        value, our_value = self._source.value(cell), self._copy.value(copied)
+            same = our_formula == formula or (cell in self._inputs and _alike(formula, our_formula))
+            return "" if same else FORMULAS
+        value = self._source.value(cell)
         if our_formula:
-            kept = _same(value, our_value)
+            kept = _same(value, ours.value)
         else:
-            kept = copied.sheet in HELPER_SHEETS or self._same_value(value, our_value)
+            kept = our_name in HELPER_SHEETS or self._same_value(value, ours.value)
         return "" if kept else CHANGED
 
-    @staticmethod
-    def _formula(source: Source, cell: Area) -> str:
-        text = source.grid(cell.sheet, formulas=True).at(cell.row, cell.column)
+    def _formula(self, cell: Area) -> str:
+        text = self._source.grid(cell.sheet, formulas=True).at(cell.row, cell.column)
         return same_formula(str(getattr(text, "text", text) or ""))
 
     def _same_value(self, value: Value, our_value: Value) -> bool:

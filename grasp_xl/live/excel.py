@@ -1,0 +1,281 @@
+"""The open workbook through xlwings: its cells to read, its cells to write, words to the person.
+
+The only file that imports xlwings.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import xlwings as xw
+
+from grasp_xl.errors import InputError, OutputError, Problem
+from grasp_xl.live.words import typed
+from grasp_xl.workbook.cells import Grid, Value
+from grasp_xl.workbook.layout import Area
+from grasp_xl.workbook.patch import Patch, SheetPatch
+from grasp_xl.workbook.styles import FONT, Style
+from grasp_xl.workbook.written import CellValue, WrittenCell
+
+TITLE = "grasp_xl"
+"""Title of every message box."""
+
+MAX_CELLS = 4_000_000
+"""Cells of one sheet that are read: stray formats can make a sheet seem as large as it can be."""
+
+STATUS_SECONDS = 0.2
+"""Least time between two texts in the status bar."""
+
+SIDES = {"edge_top": "top", "edge_bottom": "bottom"}
+"""Sides of a band, by xlwings' names, as our styles name them."""
+
+Book = xw.Book
+
+
+def calling_book() -> Book:
+    """Return the workbook whose button was pressed."""
+    return xw.Book.caller()
+
+
+# --- words ---
+
+
+def tell(book: Book, text: str, *, is_error: bool = False) -> None:
+    """Show a message box."""
+    book.app.alert(text, title=TITLE, mode="critical" if is_error else "info")
+
+
+class StatusBar:
+    """Excel's status bar, written to at most five times a second.
+
+    Parameters
+    ----------
+    book : Book
+    """
+
+    def __init__(self, book: Book) -> None:
+        self._app = book.app
+        self._told_at = 0.0
+
+    def tell(self, text: str) -> None:
+        """Show a text, unless one was shown just now."""
+        now = time.monotonic()
+        if now - self._told_at >= STATUS_SECONDS:
+            self._told_at = now
+            self._show(f"{TITLE}: {text}")
+
+    def clear(self) -> None:
+        """Give the status bar back to Excel."""
+        self._show(False)  # noqa: FBT003 (Excel's own word for it)
+
+    def _show(self, text: str | bool) -> None:  # noqa: FBT001 (as Excel has it)
+        with suppress(Exception):  # a busy Excel is no reason to end a search
+            self._app.status_bar = text
+
+
+# --- reading ---
+
+
+@dataclass(frozen=True)
+class OpenCells:
+    """The cells of an open workbook, each sheet read in two blocks: its values, its formulas.
+
+    Parameters
+    ----------
+    book : Book
+    """
+
+    book: Book
+
+    @property
+    def name(self) -> str:
+        """What Excel's title bar calls it."""
+        return str(self.book.name)
+
+    @cached_property
+    def sheets(self) -> list[str]:
+        """Names of all sheets, in order."""
+        return [sheet.name for sheet in self.book.sheets]
+
+    @cached_property
+    def references(self) -> dict[str, str]:
+        """What its defined names stand for."""
+        return {name.name: str(name.refers_to).removeprefix("=") for name in self.book.names}
+
+    @cached_property
+    def _blocks(self) -> dict[tuple[str, bool], tuple[Area, list[list[Value]]]]:
+        return {}
+
+    def grid(self, sheet: str, *, formulas: bool, rows: int) -> Grid:
+        """Read the values of a sheet's first rows, or its formulas alone.
+
+        Raises
+        ------
+        InputError
+            If the sheet is larger than any option space.
+        """
+        area, block = self._block(sheet, formulas=formulas)
+        filled: dict[int, tuple[Value, ...]] = {}
+        for number, values in enumerate(block[: max(0, rows - area.row)], area.row):
+            cells: list[Value] = [None] * area.column + list(values)
+            while cells and cells[-1] is None:
+                cells.pop()
+            if cells:
+                filled[number] = tuple(cells)
+        return Grid(sheet, filled)
+
+    def _block(self, sheet: str, *, formulas: bool) -> tuple[Area, list[list[Value]]]:
+        """Read all cells of a sheet that were ever used, once."""
+        if (sheet, formulas) not in self._blocks:
+            used = self.book.sheets[sheet].used_range
+            height, width = used.shape
+            if height * width > MAX_CELLS:
+                hint = "delete the empty rows and columns behind the last ones that you need"
+                raise InputError(
+                    [
+                        Problem(
+                            sheet,
+                            f"{height:,} rows and {width:,} columns in use",
+                            f"at most {MAX_CELLS:,} cells",
+                            hint,
+                        )
+                    ]
+                )
+            area = Area(sheet, used.row - 1, used.column - 1, height, width)
+            values = used.options(ndim=2, err_to_str=True).value
+            if formulas:
+                values = _formulas_alone(_rows(used.formula), values)
+            self._blocks[sheet, formulas] = area, values
+        return self._blocks[sheet, formulas]
+
+
+def _rows(block: Any) -> list[list[Any]]:  # noqa: ANN401 (what Excel gives)
+    """Return what Excel gives for a range as rows; for one cell that is no sequence."""
+    if not isinstance(block, list | tuple):
+        return [[block]]
+    return [list(row) for row in block]
+
+
+def _formulas_alone(texts: list[list[Any]], values: list[list[Value]]) -> list[list[Value]]:
+    """Leave out constants; text that only looks like a formula has itself as its value."""
+    return [
+        [
+            text if isinstance(text, str) and text.startswith("=") and text != value else None
+            for text, value in zip(*row, strict=True)
+        ]
+        for row in zip(texts, values, strict=True)
+    ]
+
+
+# --- writing ---
+
+
+def apply(book: Book, patch: Patch, untouched: Callable[[Area], bool]) -> None:
+    """Bring an open workbook from what it shows to another result, whole or not at all.
+
+    Parameters
+    ----------
+    book : Book
+    patch : Patch
+    untouched : callable
+        Whether a cell is as we wrote it.
+
+    Raises
+    ------
+    OutputError
+        If Excel refuses a part of it; the sheets are then as they were.
+    """
+    with book.app.properties(screen_updating=False, calculation="manual"):
+        try:
+            _apply(book, patch, untouched)
+        except Exception as error:  # whatever Excel, AppleScript or COM raise
+            with suppress(Exception):
+                _apply(book, patch.back, untouched)
+            raise OutputError(
+                f"Excel did not take the results ({_reason(error)}), so the sheets are as they "
+                "were.",
+                where=book.name,
+                hint="Unprotect the sheets and leave the cell that you edit, then try again",
+            ) from error
+
+
+def _reason(error: Exception) -> str:
+    return (str(error) or type(error).__name__).splitlines()[0][:200]
+
+
+def _apply(book: Book, patch: Patch, untouched: Callable[[Area], bool]) -> None:
+    for sheet in patch.sheets:
+        _apply_to_sheet(book.sheets[sheet.sheet], sheet, untouched)
+    for name, area in patch.names.items():
+        if name in patch.before.names:
+            book.names[name].refers_to = f"={area.reference}"
+        else:
+            book.names.add(name, f"={area.reference}")
+    for name in patch.lost_names:
+        book.names[name].delete()
+
+
+def _apply_to_sheet(sheet: Any, patch: SheetPatch, untouched: Callable[[Area], bool]) -> None:  # noqa: ANN401 (an xlwings sheet)
+    for area in patch.unmerged:
+        _range(sheet, area).unmerge()
+    for name, area in patch.tables.items():
+        sheet.tables[name].resize(_range(sheet, area))
+    for area in patch.blocks(lambda place: untouched(Area(patch.sheet, *place))):
+        _range(sheet, area).formula = [
+            [_entered(patch.cell(row, column)) for column in _columns(area)] for row in _of(area)
+        ]
+    for area in patch.bared():
+        _range(sheet, area).clear_formats()
+    for style, areas in patch.restyled().items():
+        for area in areas:
+            _dress(_range(sheet, area), style)
+    for area in patch.merged:
+        _range(sheet, area).merge()
+    if patch.before.print_area != patch.after.print_area:
+        sheet.page_setup.print_area = patch.after.print_area
+
+
+def _of(area: Area) -> range:
+    return range(area.row, area.row + area.rows)
+
+
+def _columns(area: Area) -> range:
+    return range(area.column, area.column + area.columns)
+
+
+def _range(sheet: Any, area: Area) -> Any:  # noqa: ANN401 (of xlwings)
+    last = (area.row + area.rows, area.column + area.columns)
+    return sheet.range((area.row + 1, area.column + 1), last)
+
+
+def _entered(cell: WrittenCell | None) -> CellValue:
+    """Return what to enter into a cell, so that Excel takes text for text."""
+    if cell is None or (cell.value is None and cell.formula is None):
+        return ""
+    if cell.formula is not None:
+        return f"={cell.formula}"
+    return typed(cell.value)
+
+
+def _dress(cells: Any, style: Style) -> None:  # noqa: ANN401 (an xlwings range)
+    """Give cells a look."""
+    look = {"font_size": 9, **style.look}
+    cells.number_format = look.get("num_format", "General")
+    cells.color = look.get("bg_color")
+    font = cells.font
+    font.name, font.size = FONT, look["font_size"]
+    font.bold, font.italic = look.get("bold", False), look.get("italic", False)
+    font.color = look.get("font_color", "#000000")
+    cells.horizontal_alignment = look.get("align", "general")
+    cells.vertical_alignment = {"vcenter": "center"}.get(look.get("valign", ""), "bottom")
+    cells.wrap_text = look.get("text_wrap", False)
+    if "border" in look:
+        cells.borders.set("all", line_style="continuous", color=look["border_color"])
+    for side, ours in SIDES.items():
+        if ours in look:
+            cells.borders.set(side, line_style="continuous", color=look[f"{ours}_color"])

@@ -1,0 +1,86 @@
+"""Whether a search is at work on an open workbook, and the wish to end it: two small files.
+
+They lie in the user's cache folder and are named by Excel's process and the workbook's name, so
+that nothing is written into the workbook for it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from platformdirs import user_cache_path
+
+from grasp_xl.search.stop import Interrupt
+
+LOOK_SECONDS = 0.1
+"""Time between two looks for the wish to stop."""
+
+DEAD_AFTER_SECONDS = 10.0
+"""A mark that nobody renewed for so long was left by a worker that was killed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Running:
+    """The mark of a search at work.
+
+    Parameters
+    ----------
+    mark : Path
+        Exists, and is renewed, as long as the search is at work.
+    """
+
+    mark: Path
+
+    @classmethod
+    def on(cls, book: Any) -> Running:  # noqa: ANN401 (an xlwings book)
+        """Return the mark that belongs to an open workbook."""
+        key = hashlib.sha256(f"{book.app.pid} {book.name}".encode()).hexdigest()[:16]
+        return cls(user_cache_path("grasp_xl") / "running" / key)
+
+    @property
+    def wish(self) -> Path:
+        """Exists once somebody wants the search to end."""
+        return self.mark.with_suffix(".stop")
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether a search is at work."""
+        with suppress(OSError):
+            return time.time() - self.mark.stat().st_mtime < DEAD_AFTER_SECONDS
+        return False
+
+    def ask_to_stop(self) -> None:
+        """Want the search to end."""
+        self.wish.touch()
+
+    @contextmanager
+    def marked(self) -> Iterator[Interrupt]:
+        """Mark a search as at work, and give the rule that the wish to stop trips."""
+        self.mark.parent.mkdir(parents=True, exist_ok=True)
+        self.wish.unlink(missing_ok=True)
+        self.mark.touch()
+        ask, done = Interrupt(), threading.Event()
+
+        def watch() -> None:
+            while not done.wait(LOOK_SECONDS):
+                with suppress(OSError):
+                    self.mark.touch()
+                if self.wish.exists():
+                    ask.asked = True
+
+        watcher = threading.Thread(target=watch, daemon=True)
+        watcher.start()
+        try:
+            yield ask
+        finally:
+            done.set()
+            watcher.join()
+            self.mark.unlink(missing_ok=True)
+            self.wish.unlink(missing_ok=True)

@@ -1,0 +1,216 @@
+"""What must be done to an open workbook so that it shows another result.
+
+A workbook is written as it shall be, and compared with what stands in the open one.  Only what is
+different is changed, in blocks, so that all else, formulas and a designer's own things, stays.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from grasp_xl.workbook.cells import Source, same_formula
+from grasp_xl.workbook.layout import Area
+from grasp_xl.workbook.styles import Style
+from grasp_xl.workbook.written import WrittenBook, WrittenCell, WrittenSheet
+
+Place = tuple[int, int]
+"""Row and column of a cell."""
+
+
+@dataclass(frozen=True, slots=True)
+class SheetPatch:
+    """What changes on one sheet.
+
+    Parameters
+    ----------
+    sheet : str
+    before, after : WrittenSheet
+    """
+
+    sheet: str
+    before: WrittenSheet
+    after: WrittenSheet
+
+    def changed(self) -> set[Place]:
+        """Return the cells that shall hold something else."""
+        old, new = self.before.cells, self.after.cells
+        return {
+            place
+            for place in old.keys() | new.keys()
+            if _content(old.get(place)) != _content(new.get(place))
+        }
+
+    def blocks(self, untouched: Callable[[Place], bool]) -> list[Area]:
+        """Return the blocks of cells to write, few and large.
+
+        Parameters
+        ----------
+        untouched : callable
+            Whether a cell that does not change is as we wrote it: writing it again does no harm.
+        """
+        changed = self.changed()
+        kept = self.after.cells.keys() - changed
+        return [*_blocks(self.sheet, changed, lambda place: place in kept and untouched(place))]
+
+    def cell(self, row: int, column: int) -> WrittenCell | None:
+        """Return what a cell shall hold."""
+        return self.after.cells.get((row, column))
+
+    def restyled(self) -> dict[Style, list[Area]]:
+        """Return the blocks of cells that get another look, by look."""
+        old, new = self.before.cells, self.after.cells
+        places: dict[Style, set[Place]] = defaultdict(set)
+        for place, cell in new.items():
+            if place not in old or old[place].style is not cell.style:
+                places[cell.style].add(place)
+        return {style: [*_blocks(self.sheet, cells)] for style, cells in places.items()}
+
+    def bared(self) -> list[Area]:
+        """Return the blocks of cells that are ours no longer."""
+        return [*_blocks(self.sheet, self.before.cells.keys() - self.after.cells.keys())]
+
+    @property
+    def unmerged(self) -> set[Area]:
+        """Cells that are merged no longer."""
+        return self.before.merged - self.after.merged
+
+    @property
+    def merged(self) -> set[Area]:
+        """Cells that are merged from now on."""
+        return self.after.merged - self.before.merged
+
+    @property
+    def tables(self) -> dict[str, Area]:
+        """Tables that have another size."""
+        old = self.before.tables
+        return {name: area for name, area in self.after.tables.items() if old.get(name) != area}
+
+
+@dataclass(frozen=True, slots=True)
+class Patch:
+    """What changes in a workbook: its sheets, and the cells of its defined names.
+
+    Parameters
+    ----------
+    before, after : WrittenBook
+    """
+
+    before: WrittenBook
+    after: WrittenBook
+
+    @property
+    def sheets(self) -> list[SheetPatch]:
+        """Changes by sheet, for the sheets that both have."""
+        return [
+            SheetPatch(name, self.before.sheets[name], sheet)
+            for name, sheet in self.after.sheets.items()
+            if name in self.before.sheets
+        ]
+
+    @property
+    def names(self) -> dict[str, Area]:
+        """Defined names that stand for other cells from now on."""
+        old = self.before.names
+        return {name: area for name, area in self.after.names.items() if old.get(name) != area}
+
+    @property
+    def lost_names(self) -> list[str]:
+        """Defined names that are gone."""
+        return [name for name in self.before.names if name not in self.after.names]
+
+    @property
+    def back(self) -> Patch:
+        """The way back."""
+        return Patch(self.after, self.before)
+
+
+def as_seen(source: Source, written: WrittenBook, after: WrittenBook) -> WrittenBook:
+    """Return a workbook as it was written, but with what stands in its cells now.
+
+    Parameters
+    ----------
+    source : Source
+        The open workbook.
+    written : WrittenBook
+        What we would write into it as it is: gives looks, tables and names.
+    after : WrittenBook
+        What shall be written: cells of it that are new were seen, too.
+    """
+    sheets = {
+        name: replace(sheet, cells=_seen(source, name, sheet, after.sheets[name]))
+        for name, sheet in written.sheets.items()
+        if name in source.sheets and name in after.sheets
+    }
+    return replace(written, sheets=sheets)
+
+
+def _seen(
+    source: Source, name: str, sheet: WrittenSheet, after: WrittenSheet
+) -> dict[Place, WrittenCell]:
+    values, formulas = source.grid(name), source.grid(name, formulas=True)
+    cells = {}
+    for place, ours in {**after.cells, **sheet.cells}.items():
+        value, formula = values.at(*place), formulas.at(*place)
+        if place in sheet.cells or value is not None or formula is not None:
+            text = str(formula).removeprefix("=") if formula is not None else None
+            cells[place] = WrittenCell(value, ours.style, text)  # type: ignore[arg-type]
+    return cells
+
+
+def _content(cell: WrittenCell | None) -> object:
+    """Return what makes a cell another one: its formula, else its value, empty or not there."""
+    if cell is None:
+        return None
+    return f"={same_formula(cell.formula)}" if cell.formula is not None else cell.value
+
+
+def _blocks(
+    sheet: str, places: Collection[Place], harmless: Callable[[Place], bool] = lambda _: False
+) -> Iterator[Area]:
+    """Cover cells with rectangles, row by row; they may hold harmless cells besides."""
+    spans = sorted(
+        (row, left, right)
+        for row, columns in _by_row(places).items()
+        for left, right in _spans(row, columns, harmless)
+    )
+    open_blocks: dict[Place, int] = {}  # first row, by the left and right column
+    last_row: dict[Place, int] = {}
+    for row, left, right in spans:
+        here = (left, right)
+        if here in open_blocks and last_row[here] == row - 1:
+            last_row[here] = row
+            continue
+        if here in open_blocks:
+            yield _area(sheet, open_blocks[here], last_row[here], here)
+        open_blocks[here] = last_row[here] = row
+    for here, first in open_blocks.items():
+        yield _area(sheet, first, last_row[here], here)
+
+
+def _area(sheet: str, first: int, last: int, columns: Place) -> Area:
+    left, right = columns
+    return Area(sheet, first, left, last - first + 1, right - left + 1)
+
+
+def _by_row(places: Iterable[Place]) -> dict[int, list[int]]:
+    rows: dict[int, list[int]] = defaultdict(list)
+    for row, column in places:
+        rows[row].append(column)
+    return rows
+
+
+def _spans(
+    row: int, columns: list[int], harmless: Callable[[Place], bool]
+) -> Iterator[tuple[int, int]]:
+    """Join the columns of a row to spans; all that lies between two joined ones is harmless."""
+    left, *rest = sorted(columns)
+    right = left
+    for column in rest:
+        if all(harmless((row, between)) for between in range(right + 1, column)):
+            right = column
+        else:
+            yield left, right
+            left = right = column
+    yield left, right
