@@ -99,7 +99,7 @@ def test_a_place_that_cannot_hold_a_file_is_refused_before_any_work(
     assert files(folder) == before
 
 
-@pytest.mark.parametrize("name", ["x", "x.csv", "x.xls", "x.xlsm"])
+@pytest.mark.parametrize("name", ["x", "x.csv", "x.xls", "x.xltm"])
 def test_a_workbook_is_called_xlsx(export: Path, name: str) -> None:
     """Excel would not open it under another name."""
     assert run(export, "-o", export.with_name(name)) == 2
@@ -415,7 +415,10 @@ PARTS = {
     "xl/vbaProject.bin": (b"", "macro modules (1"),
     "xl/pivotTables/pivotTable1.xml": (b"<a/>", "pivot tables (1"),
     "xl/externalLinks/externalLink1.xml": (b"<a/>", "links to other workbooks (1"),
-    "xl/ctrlProps/ctrlProp1.xml": (b"<a/>", "controls (1"),
+    "xl/drawings/vmlDrawing9.vml": (
+        b'<x:ClientData ObjectType="Drop"/><x:ClientData ObjectType="Note"/>',
+        "controls (1",
+    ),
 }
 """What Excel can add, and how it is named."""
 

@@ -184,7 +184,8 @@ class Pen:
 
     def fill_if_used(self, cell: Area, colour: str) -> None:
         """Give a cell a colour as long as it holds anything."""
-        look = {"type": "no_blanks", "format": self.formats.filled(colour)}
+        criteria = f"=LEN({cell.absolute})>0"
+        look = {"type": "formula", "criteria": criteria, "format": self.formats.filled(colour)}
         self.sheet.conditional_format(cell.row, cell.column, cell.row, cell.column, look)
 
     def note(self, row: int, column: int, text: str) -> None:
