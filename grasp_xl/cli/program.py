@@ -14,6 +14,7 @@ import typer
 from grasp_xl import __version__
 from grasp_xl.cli.check import check
 from grasp_xl.cli.evaluate import evaluate
+from grasp_xl.cli.excel import excel
 from grasp_xl.cli.front import front
 from grasp_xl.cli.new import new
 from grasp_xl.cli.run import run
@@ -128,5 +129,5 @@ def _about(
         raise typer.Exit
 
 
-for _command in (check, new, evaluate, run, solve, front):
+for _command in (check, new, evaluate, run, solve, front, excel):
     app.command()(_command)

@@ -12,6 +12,7 @@ from grasp_xl.rules import TERMS, Rules
 
 if TYPE_CHECKING:
     from grasp_xl.commands.check import Checked
+    from grasp_xl.commands.excel import Buttons
     from grasp_xl.commands.front import FoundFront
     from grasp_xl.commands.run import Ran
     from grasp_xl.commands.solve import Solved
@@ -139,6 +140,11 @@ def new_json(task: Task, output: str) -> Json:
         "warnings": problems_json(task.warnings),
         "output": output,
     }
+
+
+def excel_json(found: Buttons) -> Json:
+    """Return how the buttons of a workbook find Python."""
+    return {"settings": found.settings, "setting": found.name, "works": found.works}
 
 
 def check_json(checked: Checked) -> Json:

@@ -24,6 +24,7 @@ from grasp_xl.search.stop import Progress
 
 if TYPE_CHECKING:
     from grasp_xl.commands.check import Checked
+    from grasp_xl.commands.excel import Buttons
     from grasp_xl.commands.front import FoundFront
     from grasp_xl.commands.run import Ran
     from grasp_xl.commands.solve import Solved
@@ -303,3 +304,15 @@ def check(checked: Checked) -> None:
     """Print what ``check`` found."""
     for sentence in sentences.check(checked):
         line(sentence)
+
+
+def excel(found: Buttons) -> None:
+    """Print how the buttons of a workbook find Python."""
+    for name, value in found.settings.items():
+        line(f"{name}: {value or '-'}")
+    if found.name is None:
+        line("There is no Excel for this computer, so its path cannot be checked here.")
+    elif found.works:
+        line(f"{found.name} is there: the buttons find Python on this computer.")
+    else:
+        line(f"{found.name} is not there; grasp-xl excel --repair BOOK mends that.")

@@ -16,7 +16,7 @@ from openpyxl.utils.cell import get_column_letter, range_boundaries
 from openpyxl.xml.functions import fromstring, iterparse
 
 from grasp_xl.workbook.cells import same_formula
-from grasp_xl.workbook.package import MAX_ROWS, Package, workbook_part
+from grasp_xl.workbook.package import MAX_ROWS, Package, sheet_parts, workbook_part
 
 AREA_NAMES = {"_xlnm.Print_Area": "print areas of", "_xlnm.Print_Titles": "print titles of"}
 BUILT_IN = "_xlnm."
@@ -95,13 +95,12 @@ def _common(one: Range, other: Range) -> int:
 def read_extras(package: Package) -> Extras:
     """Read them from a workbook that was checked."""
     with zipfile.ZipFile(io.BytesIO(package.content)) as archive:
-        part = workbook_part(package.name, archive)
-        book = fromstring(archive.read(part))
-        parts = {str(relation.Id): relation.target for relation in _relations(archive, part)}
+        book = fromstring(archive.read(workbook_part(package.name, archive)))
+        parts = sheet_parts(package.name, archive)
         sheets = {str(sheet.get("name")): sheet for sheet in book.iter() if _tag(sheet) == "sheet"}
         found = Extras(of_book=list(_of_book(book)))
         for name, sheet in sheets.items():
-            target = next(parts.get(value) for key, value in sheet.items() if key.endswith("}id"))
+            target = parts[name]
             found.by_sheet[name] = [] if target is None else list(_of_sheet(archive, name, target))
             if sheet.get("state", "visible") != "visible":
                 found.by_sheet[name].append(Extra("hidden sheets", name, ""))

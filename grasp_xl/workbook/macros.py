@@ -8,15 +8,13 @@ import sys
 import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any
-
-from openpyxl.packaging.relationship import get_dependents, get_rels_path
-from openpyxl.xml.functions import fromstring
 
 from grasp_xl.macros import PROJECTS, project
 from grasp_xl.workbook.cells import Source
 from grasp_xl.workbook.layout import CONFIGURATION, Area
-from grasp_xl.workbook.package import Package, workbook_part
+from grasp_xl.workbook.package import Package, sheet_parts
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import Style
 
@@ -136,7 +134,7 @@ def read_macros(package: Package, source: Source) -> Macros | None:
         content = archive.read(parts[_PROJECT])
         signature = archive.read(parts[_SIGNATURE]) if _SIGNATURE in parts else None
         settings = read_settings(source)
-        if signature is None and content in [path.read_bytes() for path in PROJECTS.values()]:
+        if signature is None and content in map(Path.read_bytes, PROJECTS.values()):
             return Macros(settings)
         return Macros(settings, content, signature, _code_names(package, archive))
 
@@ -155,15 +153,10 @@ def read_settings(source: Source) -> dict[str, str]:
 
 def _code_names(package: Package, archive: zipfile.ZipFile) -> dict[str, str]:
     """Return the code names of the sheets that have one."""
-    part = workbook_part(package.name, archive)
-    relations = get_dependents(archive, get_rels_path(part))  # type: ignore[no-untyped-call]
     names = {}
-    for sheet in fromstring(archive.read(part)).iter():
-        if sheet.tag.rpartition("}")[2] != "sheet":
-            continue
-        relation = next(v for k, v in sheet.items() if k.rpartition("}")[2] == "id")
-        with archive.open(relations.get(relation).target) as file:
+    for sheet, part in sheet_parts(package.name, archive).items():
+        with archive.open(part or "") as file:
             found = _CODE_NAME.search(file.read(_START_BYTES))
         if found:
-            names[str(sheet.get("name"))] = found[1].decode()
+            names[sheet] = found[1].decode()
     return names

@@ -432,6 +432,20 @@ def workbook_part(name: str, archive: zipfile.ZipFile) -> str:
     return ""
 
 
+def sheet_parts(name: str, archive: zipfile.ZipFile) -> dict[str, str | None]:
+    """Return the part of each sheet, by the sheet's name; None where the relation is missing."""
+    book = workbook_part(name, archive)
+    relations = get_dependents(archive, get_rels_path(book))  # type: ignore[no-untyped-call]
+    targets = {str(relation.Id): relation.target for relation in relations}
+    return {
+        str(sheet.get("name")): next(
+            targets.get(value) for key, value in sheet.items() if key.endswith("}id")
+        )
+        for sheet in fromstring(archive.read(book)).iter()
+        if str(sheet.tag).rpartition("}")[2] == "sheet"
+    }
+
+
 def _unreadable_cells(sheet: ReadOnlyWorksheet) -> list[Problem]:
     problems = []
     strings = sheet._shared_strings  # type: ignore[attr-defined]  # noqa: SLF001

@@ -25,7 +25,7 @@ def content_digest(archive: zipfile.ZipFile) -> str:
     return digest.hexdigest()
 
 
-def stamped(content: bytes) -> bytes:
+def stamped(content: bytes, placeholder: str = PLACEHOLDER) -> bytes:
     """Return a workbook with the placeholder of its mark replaced by the mark."""
     written = io.BytesIO()
     with (
@@ -36,9 +36,18 @@ def stamped(content: bytes) -> bytes:
         for part in plain.infolist():
             data = plain.read(part)
             if part.filename == STAMPED_PART:
-                data = data.replace(PLACEHOLDER.encode(), mark)
+                data = data.replace(placeholder.encode(), mark)
             marked.writestr(part, data)
     return written.getvalue()
+
+
+def stamped_anew(content: bytes, before: bytes) -> bytes:
+    """Return a workbook that we changed with the mark that it has now.
+
+    ``before`` is the workbook with the mark that it had.
+    """
+    with zipfile.ZipFile(io.BytesIO(before)) as archive:
+        return stamped(content, content_digest(archive))
 
 
 def is_untouched(file: Path | BinaryIO) -> bool:
