@@ -52,13 +52,16 @@ class Office:
 
     Parameters
     ----------
-    profile : Path
+    profile : Path | None
         Folder for its user profile, so that it neither reads nor writes a person's.
+    pipe : str
+        Instead of a profile: the pipe of a LibreOffice that runs already, and that will run on.
     """
 
-    def __init__(self, profile: Path) -> None:
+    def __init__(self, profile: Path | None = None, *, pipe: str = "") -> None:
+        start = ["--connect", pipe] if pipe else [str(profile)]
         self._worker = subprocess.Popen(  # noqa: S603 (our own script)
-            [PYTHON_WITH_UNO, "-I", str(WORKER), str(profile)],
+            [PYTHON_WITH_UNO, "-I", str(WORKER), *start],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
@@ -67,33 +70,41 @@ class Office:
         self.path: Path | None = None
         """The workbook that is open."""
         try:
-            self._group = self._answer()
+            started = self._answer()
         except OfficeError:
             self.end()
             raise
+        self._group = None if pipe else started["group"]
+        self.pid: int = started["pid"]
+        """LibreOffice's process."""
+        self.pipe: str = started["pipe"]
+        """By this another process connects to it."""
 
     def end(self) -> None:
-        """End LibreOffice."""
+        """End LibreOffice, or the connection to one that was not started here."""
         self._worker.communicate(timeout=SECONDS)
 
-    def open(self, path: Path, *, macros: bool = False) -> None:
-        """Open a workbook with the values that it stores, macros enabled or not; close the one before."""
-        self._do("close")
-        self._do("open", path=str(path), macros=macros)
+    def open(self, path: Path, *, macros: bool = False, unsaved: bool = False) -> None:
+        """Open a workbook with the values that it stores; close the one before.
+
+        Its macros are enabled or not; an unsaved one is a new workbook with the same content.
+        """
+        self.do("close")
+        self.do("open", path=str(path), macros=macros, unsaved=unsaved)
         self.path = path
 
     def recalculate(self) -> None:
         """Calculate every formula from scratch."""
-        self._do("recalculate")
+        self.do("recalculate")
 
     def formulas(self) -> dict[Area, CellValue]:
         """Return the value of every formula cell of every sheet; errors as their text."""
-        cells = self._do("formulas")
+        cells = self.do("formulas")
         return {Area(sheet, row, column): value for sheet, row, column, value in cells}
 
     def read(self, place: Place) -> list[list[CellValue]]:
         """Return the values of an area, row by row; errors as their text, no value as ''."""
-        rows: list[list[CellValue]] = self._do("read", places=[_sent(place)])[0]
+        rows: list[list[CellValue]] = self.do("read", places=[sent(place)])[0]
         return rows
 
     def value(self, place: Place) -> CellValue:
@@ -102,41 +113,42 @@ class Office:
 
     def values(self, places: list[Area]) -> list[CellValue]:
         """Return the values of many cells."""
-        answers = self._do("read", places=[_sent(place) for place in places])
+        answers = self.do("read", places=[sent(place) for place in places])
         return [rows[0][0] for rows in answers]
 
     def enter(self, cells: dict[Place, float | str | None]) -> None:
         """Type into cells, as a person does: what depends on them follows; None empties a cell."""
-        self._do("write", cells=[(_sent(place), value) for place, value in cells.items()])
+        self.do("write", cells=[(sent(place), value) for place, value in cells.items()])
 
     def paste(self, source: Place, target: Place) -> None:
         """Copy cells and paste them whole elsewhere; :meth:`undo` does not put this back."""
-        self._do("paste", source=_sent(source), target=_sent(target))
+        self.do("paste", source=sent(source), target=sent(target))
 
     def modules(self, library: str) -> dict[str, str]:
         """Return the source of every module of a library of macros, by its name."""
-        sources: dict[str, str] = self._do("modules", library=library)
+        sources: dict[str, str] = self.do("modules", library=library)
         return sources
 
     def remove(self, sheet: str) -> None:
         """Delete a sheet; :meth:`undo` does not put it back."""
-        self._do("remove", sheet=sheet)
+        self.do("remove", sheet=sheet)
 
     def undo(self) -> None:
         """Put back what was typed over since the workbook was opened."""
-        self._do("undo")
+        self.do("undo")
 
     def pages(self, width_mm: float, height_mm: float) -> int:
         """Return how many pages a print of all sheets has on a paper."""
-        pages: int = self._do("pages", width=width_mm, height=height_mm)
+        pages: int = self.do("pages", width=width_mm, height=height_mm)
         return pages
 
     def save(self, path: Path) -> Path:
         """Save the workbook as .xlsx."""
-        self._do("save", path=str(path))
+        self.do("save", path=str(path))
         return path
 
-    def _do(self, command: str, **details: Any) -> Any:
+    def do(self, command: str, **details: Any) -> Any:
+        """Have the worker carry out one command."""
         if self._worker.stdin is None:
             raise AssertionError("started with a pipe")
         self._worker.stdin.write(json.dumps({"do": command, **details}) + "\n")
@@ -158,9 +170,12 @@ class Office:
     def _kill(self) -> None:
         if self._group is not None:
             os.killpg(self._group, signal.SIGKILL)
+        else:
+            self._worker.kill()
 
 
-def _sent(place: Place) -> str | tuple[str, str]:
+def sent(place: Place) -> str | tuple[str, str]:
+    """Put a place into the worker's words."""
     return place if isinstance(place, str) else (place.sheet, place.absolute)
 
 

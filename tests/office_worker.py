@@ -18,7 +18,8 @@ try:
     import uno
     from com.sun.star.beans import PropertyValue
     from com.sun.star.connection import NoConnectException
-    from com.sun.star.lang import DisposedException
+    from com.sun.star.lang import DisposedException, Locale
+    from com.sun.star.table import CellAddress
     from com.sun.star.uno import Exception as UnoException
 except ImportError as error:  # told to the test session in words, which then skips or fails
     sys.stdout.write(json.dumps({"fault": f"no uno: {error}"}) + "\n")
@@ -26,15 +27,16 @@ except ImportError as error:  # told to the test session in words, which then sk
 
 START_SECONDS = 60
 XLSX = "Calc MS Excel 2007 XML"
+XLSM = "Calc MS Excel 2007 VBA XML"
 WITH_ERROR = 4  # com.sun.star.sheet.FormulaResult.ERROR
 RUN_MACROS = 4  # com.sun.star.document.MacroExecMode.ALWAYS_EXECUTE_NO_WARN
 NO_MACROS = 0  # NEVER_EXECUTE, which is also the default
-SCRATCH = "scratch_of_the_tests"
+DATE, LOGICAL = 2, 1024  # com.sun.star.util.NumberFormat
+THIN, SOLID = 26, 0  # 1/100 mm; com.sun.star.table.BorderLineStyle
 
 
-def start_office(profile):
-    """Start LibreOffice with a profile of its own; return the process and its desktop."""
-    pipe = f"grasp_xl_{uuid.uuid4().hex}"
+def start_office(profile, pipe):
+    """Start LibreOffice with a profile of its own; return the process and its context."""
     process = subprocess.Popen(  # noqa: S603 (our own arguments)
         [
             shutil.which("soffice") or "soffice",
@@ -50,23 +52,34 @@ def start_office(profile):
         stderr=subprocess.DEVNULL,
         start_new_session=True,
     )
-    here = uno.getComponentContext()
-    make = here.ServiceManager.createInstanceWithContext
-    resolver = make("com.sun.star.bridge.UnoUrlResolver", here)
-    address = f"uno:pipe,name={pipe};urp;StarOffice.ComponentContext"
     patience = time.monotonic() + START_SECONDS
     while True:
         try:
-            there = resolver.resolve(address)
+            return process, connect(pipe)
         except NoConnectException:
             if time.monotonic() > patience or process.poll() is not None:
                 stop_office(process, None)
                 raise
             time.sleep(0.1)
-        else:
-            manager = there.ServiceManager
-            desktop = manager.createInstanceWithContext("com.sun.star.frame.Desktop", there)
-            return process, desktop
+
+
+def connect(pipe):
+    """Return the context of the LibreOffice that listens at a pipe."""
+    here = uno.getComponentContext()
+    resolver = here.ServiceManager.createInstanceWithContext(
+        "com.sun.star.bridge.UnoUrlResolver", here
+    )
+    return resolver.resolve(f"uno:pipe,name={pipe};urp;StarOffice.ComponentContext")
+
+
+def process_at(pipe):
+    """Return the process that listens at a pipe; soffice itself is only its starter."""
+    for process in Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):
+            command = (process / "cmdline").read_text(errors="replace")
+            if "soffice.bin" in command and pipe in command:
+                return int(process.name)
+    return 0
 
 
 def stop_office(process, desktop):
@@ -97,11 +110,39 @@ def url(path):
     return Path(path).as_uri()
 
 
+def block(sheet, where):
+    """Return the cells of a sheet that an address names."""
+    return sheet.getCellRangeByPosition(
+        where.StartColumn, where.StartRow, where.EndColumn, where.EndRow
+    )
+
+
 def content(cell):
     """Return what a cell holds: a number, text, a formula, or None."""
     if cell.getType().value == "VALUE":
         return cell.getValue()
     return cell.getFormula() or None
+
+
+def typed(value):
+    """Return what is typed for a constant: text behind an apostrophe stays text."""
+    if value is None:
+        return ""
+    return f"'{value}" if isinstance(value, str) else repr(value)
+
+
+def put_constant(cell, value):
+    """Store a number or a text as it is."""
+    if isinstance(value, str):
+        cell.setString(value)
+    else:
+        cell.setValue(value)
+
+
+def numbers(where):
+    """Return row, column, rows and columns of an address."""
+    rows, columns = where.EndRow - where.StartRow, where.EndColumn - where.StartColumn
+    return where.StartRow, where.StartColumn, 1 + rows, 1 + columns
 
 
 def put(cell, value):
@@ -117,17 +158,19 @@ def put(cell, value):
 class Session:
     """LibreOffice with at most one workbook open; each method is a command."""
 
-    def __init__(self, desktop):
-        self._desktop = desktop
+    def __init__(self, context):
+        make = context.ServiceManager.createInstanceWithContext
+        self.desktop = make("com.sun.star.frame.Desktop", context)
+        self._functions = make("com.sun.star.sheet.FunctionAccess", context)
+        self._configuration = make("com.sun.star.configuration.ConfigurationProvider", context)
         self._book = None
         self._typed = []
 
-    def open(self, path, macros):
+    def open(self, path, macros, unsaved):
         """Open a workbook with the values that it stores, and with macros enabled or not."""
         mode = RUN_MACROS if macros else NO_MACROS
-        self._book = self._desktop.loadComponentFromURL(
-            url(path), "_blank", 0, properties(Hidden=True, MacroExecutionMode=mode)
-        )
+        how = properties(Hidden=True, MacroExecutionMode=mode, AsTemplate=unsaved)
+        self._book = self.desktop.loadComponentFromURL(url(path), "_blank", 0, how)
         if self._book is None:
             raise ValueError(f"{path} does not open")
 
@@ -219,27 +262,232 @@ class Session:
         wrong = area.queryFormulaCells(WITH_ERROR)
         if not wrong.getCount():
             return rows
-        missing = self._not_available(area)
         for part in wrong.getRangeAddresses():
+            missing = self._not_available(sheet, part)
             for row in range(part.StartRow, part.EndRow + 1):
                 for column in range(part.StartColumn, part.EndColumn + 1):
-                    at = (row - where.StartRow, column - where.StartColumn)
-                    known = missing[at[0]][at[1]] == 1
+                    known = missing[row - part.StartRow][column - part.StartColumn]
                     text = "#N/A" if known else sheet.getCellByPosition(column, row).getString()
-                    rows[at[0]][at[1]] = text
+                    rows[row - where.StartRow][column - where.StartColumn] = text
         return rows
 
-    def _not_available(self, area):
-        """Return 1 where cells are #N/A: one array formula, where a look at each takes seconds."""
-        sheets, where = self._book.Sheets, area.getRangeAddress()
-        sheets.insertNewByName(SCRATCH, sheets.Count)
-        scratch = sheets.getByName(SCRATCH).getCellRangeByPosition(
-            where.StartColumn, where.StartRow, where.EndColumn, where.EndRow
+    def _not_available(self, sheet, part):
+        """Return 1 where cells are #N/A: one call, where a look at each takes seconds."""
+        marks = self._functions.callFunction("ISNA", (block(sheet, part),))
+        return marks if isinstance(marks, tuple) else ((marks,),)
+
+
+class Live(Session):
+    """What the engine for xlwings needs besides; rows and columns count from 0."""
+
+    def bind(self, name):
+        """Take an open workbook by its name."""
+        for book in self.desktop.Components:
+            self._book = book
+            if self.book()["name"] == name:
+                return
+        raise ValueError(f"no open workbook is called {name}")
+
+    def book(self):
+        """Return the workbook's name, and its path if it was ever saved."""
+        if not self._book.URL:
+            return {"name": self._book.Title, "path": None}
+        path = Path(uno.fileUrlToSystemPath(self._book.URL))
+        return {"name": path.name, "path": str(path)}
+
+    def version(self):
+        """Return LibreOffice's version."""
+        node = properties(nodepath="/org.openoffice.Setup/Product")
+        view = "com.sun.star.configuration.ConfigurationAccess"
+        product = self._configuration.createInstanceWithArguments(view, node)
+        return product.getByName("ooSetupVersionAboutBox")
+
+    def save_as(self, path):
+        """Save the workbook under a new name, or under its own."""
+        if path is None:
+            self._book.store()
+            return
+        name = XLSM if path.endswith(".xlsm") else XLSX
+        self._book.storeAsURL(url(path), properties(FilterName=name))
+
+    def calculation(self, automatic):
+        """Switch automatic calculation on or off; None asks only."""
+        if automatic is not None:
+            self._book.enableAutomaticCalculation(automatic)
+        return self._book.isAutomaticCalculationEnabled()
+
+    def calculate(self):
+        """Calculate what has changed."""
+        self._book.calculate()
+
+    def sheets(self):
+        """Return the names of the sheets."""
+        return self._book.Sheets.ElementNames
+
+    def active(self):
+        """Return the name of the sheet that is in front."""
+        return self._book.CurrentController.ActiveSheet.Name
+
+    def activate(self, sheet):
+        """Bring a sheet to the front."""
+        self._book.CurrentController.setActiveSheet(self._book.Sheets.getByName(sheet))
+
+    def select(self, place):
+        """Select cells."""
+        self._book.CurrentController.select(self._area(place))
+
+    def used(self, sheet):
+        """Return the block of a sheet that holds something."""
+        cursor = self._book.Sheets.getByName(sheet).createCursor()
+        cursor.gotoStartOfUsedArea(False)  # noqa: FBT003 (UNO has no names)
+        cursor.gotoEndOfUsedArea(True)  # noqa: FBT003
+        return numbers(cursor.RangeAddress)
+
+    def cells(self, place, formulas):
+        """Return values of cells, formulas if wanted, and where dates and truths are."""
+        area = self._area(place)
+        return {
+            "values": self._values(area.Spreadsheet, area),
+            "formulas": area.getFormulaArray() if formulas else None,
+            "kinds": [
+                (kind, numbers(where))
+                for kind in (DATE, LOGICAL)
+                for where in self._formatted(area, kind)
+            ],
+        }
+
+    def fill(self, place, constants, formulas, kinds):
+        """Write a block: constants, and formulas where there are any."""
+        area = self._writable(place)
+        for where in self._formatted(area, LOGICAL):  # what is written decides what it is
+            block(area.Spreadsheet, where).NumberFormat = 0
+        if formulas is None:
+            area.setDataArray(tuple(tuple("" if x is None else x for x in y) for y in constants))
+        else:
+            self._fill_mixed(area, constants, formulas)
+        for row, column, kind in kinds:
+            cell = area.getCellByPosition(column, row)
+            if self._format(cell).FormatString == "General":
+                cell.NumberFormat = self._book.NumberFormats.getStandardFormat(kind, Locale())
+
+    def names(self):
+        """Return all defined names; those of one sheet as ``Sheet!Name``."""
+        own = [(s.Name, name) for s in self._book.Sheets for name in s.NamedRanges.ElementNames]
+        return [*self._book.NamedRanges.ElementNames, *(f"{sheet}!{name}" for sheet, name in own)]
+
+    def name(self, name, content):
+        """Return what a defined name stands for, after changing it unless None is given."""
+        where, plain = self._scope(name)
+        if content is not None:
+            if not where.hasByName(plain):
+                where.addNewByName(plain, content, CellAddress(), 0)
+            where.getByName(plain).setContent(content)
+        return where.getByName(plain).Content
+
+    def remove_name(self, name):
+        """Delete a defined name."""
+        where, plain = self._scope(name)
+        where.removeByName(plain)
+
+    def tables(self, sheet):
+        """Return names and cells of a sheet's tables."""
+        index = self._book.Sheets.ElementNames.index(sheet)
+        tables = [(table.Name, table.DataArea) for table in self._book.DatabaseRanges]
+        return [(name, numbers(where)) for name, where in tables if where.Sheet == index]
+
+    def resize(self, table, place):
+        """Give a table other cells."""
+        self._book.DatabaseRanges.getByName(table).DataArea = self._writable(place).RangeAddress
+
+    def print_areas(self, sheet, places):
+        """Return the areas that are printed, after changing them unless None is given."""
+        cells = self._book.Sheets.getByName(sheet)
+        if places is not None:
+            cells.setPrintAreas(tuple(self._area(place).RangeAddress for place in places))
+        return [numbers(where) for where in cells.getPrintAreas()]
+
+    def style(self, place, name):
+        """Return a property of cells, None where they differ."""
+        value = self._area(place).getPropertyValue(name)
+        return value.value if isinstance(value, uno.Enum) else value
+
+    def set_style(self, place, name, value):
+        """Give cells a property; an enum's value comes as its type and its name."""
+        value = uno.Enum(*value) if isinstance(value, list) else value
+        self._writable(place).setPropertyValue(name, value)
+
+    def number_format(self, place, code):
+        """Return the number format of cells, after changing it unless None is given."""
+        if code is not None:
+            formats, where = self._book.NumberFormats, Locale("en", "US", "")
+            key = formats.queryKey(code, where, False)  # noqa: FBT003 (UNO has no names)
+            key = formats.addNew(code, where) if key == -1 else key
+            self._writable(place).NumberFormat = key
+        area = self._area(place)
+        return None if area.NumberFormat is None else self._format(area).FormatString
+
+    def borders(self, place, sides, changes):
+        """Change lines around and inside cells; what is not given stays."""
+        area = self._writable(place)
+        border = area.TableBorder2
+        for side in sides:
+            line = getattr(border, f"{side}Line")
+            if not line.LineWidth:
+                line.LineWidth, line.LineStyle = THIN, SOLID
+            for name, value in changes.items():
+                setattr(line, name, value)
+            line.OuterLineWidth = line.LineWidth
+            setattr(border, f"{side}Line", line)
+            setattr(border, f"Is{side}LineValid", True)
+        for side in {"Top", "Bottom", "Left", "Right", "Horizontal", "Vertical"}.difference(sides):
+            setattr(border, f"Is{side}LineValid", False)
+        area.TableBorder2 = border
+
+    def merge(self, place, merged):
+        """Merge cells, or take them apart."""
+        self._writable(place).merge(merged)
+
+    def clear(self, place, flags):
+        """Take away contents, formats, or both."""
+        self._writable(place).clearContents(flags)
+
+    def _writable(self, place):
+        """Return cells that may be changed: Excel refuses others, LibreOffice may keep silent."""
+        area = self._area(place)
+        if area.Spreadsheet.isProtected():
+            protection = area.CellProtection
+            if protection is None or protection.IsLocked:
+                raise ValueError(f"the sheet of {area.AbsoluteName} is protected")
+        return area
+
+    def _fill_mixed(self, area, constants, formulas):
+        """Write constants and formulas at once; what was read in another way, once more."""
+        area.setFormulaArray(
+            tuple(
+                tuple(formula or typed(value) for value, formula in zip(*rows, strict=True))
+                for rows in zip(constants, formulas, strict=True)
+            )
         )
-        scratch.setArrayFormula(f"=IF(ISNA({area.AbsoluteName});1;0)")
-        marks = scratch.getDataArray()
-        sheets.removeByName(SCRATCH)
-        return marks
+        for row, values in enumerate(area.getDataArray()):
+            for column, value in enumerate(values):
+                meant = constants[row][column]
+                if meant is not None and value != meant:
+                    put_constant(area.getCellByPosition(column, row), meant)
+
+    def _formatted(self, area, kind):
+        """Iterate over the parts of an area whose number format is of a kind."""
+        for cells in area.getUniqueCellFormatRanges():
+            if self._format(cells).Type & kind:
+                yield from cells.getRangeAddresses()
+
+    def _format(self, cells):
+        return self._book.NumberFormats.getByKey(cells.NumberFormat)
+
+    def _scope(self, name):
+        """Return the names of the workbook or of one sheet, and the name without its sheet."""
+        sheet, _, plain = name.rpartition("!")
+        owner = self._book.Sheets.getByName(sheet) if sheet else self._book
+        return owner.NamedRanges, plain
 
 
 def answer(session, line):
@@ -259,23 +507,43 @@ def say(message):
     sys.stdout.flush()
 
 
+def serve(session):
+    """Answer until the input ends."""
+    for line in sys.stdin:
+        say(answer(session, line))
+
+
+def join(pipe):
+    """Serve a LibreOffice that somebody else started, and leave it as it is."""
+    try:
+        session = Live(connect(pipe))
+    except UnoException as error:
+        say({"fault": f"no LibreOffice at {pipe}: {error}"})
+        return
+    say({"answer": {"group": None, "pid": process_at(pipe), "pipe": pipe}})
+    serve(session)
+
+
 def main(profile):
     """Tell LibreOffice's process group, then serve until the input ends."""
+    pipe = f"grasp_xl_{uuid.uuid4().hex}"
     try:
-        process, desktop = start_office(profile)
+        process, context = start_office(profile, pipe)
     except (OSError, UnoException) as error:
         say({"fault": f"soffice does not start: {error}"})
         return
-    session = Session(desktop)
+    session = Live(context)
     try:
-        say({"answer": process.pid})
-        for line in sys.stdin:
-            say(answer(session, line))
+        say({"answer": {"group": process.pid, "pid": process_at(pipe), "pipe": pipe}})
+        serve(session)
     finally:
         with contextlib.suppress(UnoException):  # an open workbook would leave its lock file
             session.close()
-        stop_office(process, desktop)
+        stop_office(process, session.desktop)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    if sys.argv[1] == "--connect":
+        join(sys.argv[2])
+    else:
+        main(sys.argv[1])
