@@ -51,6 +51,7 @@ def start_office(profile, pipe):
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         start_new_session=True,
+        env={**os.environ, "LC_ALL": "C.UTF-8"},  # number formats in English
     )
     patience = time.monotonic() + START_SECONDS
     while True:
@@ -370,6 +371,10 @@ class Live(Session):
             if self._format(cell).FormatString == "General":
                 cell.NumberFormat = self._book.NumberFormats.getStandardFormat(kind, Locale())
 
+    def protect(self, sheet):
+        """Protect a sheet, without a password."""
+        self._book.Sheets.getByName(sheet).protect("")
+
     def names(self):
         """Return all defined names; those of one sheet as ``Sheet!Name``."""
         own = [(s.Name, name) for s in self._book.Sheets for name in s.NamedRanges.ElementNames]
@@ -419,7 +424,7 @@ class Live(Session):
     def number_format(self, place, code):
         """Return the number format of cells, after changing it unless None is given."""
         if code is not None:
-            formats, where = self._book.NumberFormats, Locale("en", "US", "")
+            formats, where = self._book.NumberFormats, Locale()
             key = formats.queryKey(code, where, False)  # noqa: FBT003 (UNO has no names)
             key = formats.addNew(code, where) if key == -1 else key
             self._writable(place).NumberFormat = key
