@@ -65,6 +65,7 @@ _OF_CALC = re.compile(
 )
 _OF_EXCEL = re.compile(rf"{_TEXT}|({_SHEET}|[^\W\d][\w.]*)!|_xlfn\.|[{{}};,]")
 _PLAIN_SHEET = re.compile(r"(?![A-Z]{1,3}\d+$|R\d*C?\d*$|C\d*$)[^\W\d][\w.]*", re.IGNORECASE)
+_OWN_ERROR = re.compile(r"Err:\d+")
 _NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)(E[+-]?\d+)?\s*", re.IGNORECASE)
 
 
@@ -673,8 +674,10 @@ def _one_or_all(rows: list[list[Any]]) -> Any:
 
 
 def _value(cell: float | str) -> Any:
-    if isinstance(cell, str) and cell.startswith(("#", "Err:")):
-        return CellError(cell if cell in ERRORS else "#VALUE!")
+    if cell in ERRORS:
+        return CellError(cell)
+    if isinstance(cell, str) and _OWN_ERROR.fullmatch(cell):
+        return CellError("#VALUE!")
     return None if cell == "" else cell
 
 

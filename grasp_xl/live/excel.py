@@ -236,8 +236,8 @@ def _apply_to_sheet(sheet: Any, patch: SheetPatch, untouched: Callable[[Area], b
             _dress(_range(sheet, area), style)
     for area in patch.merged:
         _range(sheet, area).merge()
-    if patch.before.print_area != patch.after.print_area:
-        sheet.page_setup.print_area = patch.after.print_area
+    if patch.before.printed != patch.after.printed:
+        sheet.page_setup.print_area = ",".join(area.absolute for area in patch.after.printed)
 
 
 def _of(area: Area) -> range:

@@ -234,7 +234,7 @@ class Pen:
         tall = max(math.ceil(scale * height / PAGE_HEIGHT) for _, height in sizes)
         self.sheet.fit_to_pages(1, 1 if legible else tall)
         self.sheet.print_area_range = ",".join(page.reference for page in pages)
-        self.written.print_area = self.sheet.print_area_range
+        self.written.printed = tuple(pages)
         if lists and not legible:
             for picture in pages[len(lists) :]:
                 self._widen(picture)

@@ -31,14 +31,14 @@ class WrittenSheet:
     merged : set of Area
     tables : dict
         Excel tables with their headers, by name.
-    print_area : str
-        As a defined name has it.
+    printed : tuple of Area
+        What is printed, a page or more each.
     """
 
     cells: dict[tuple[int, int], WrittenCell] = field(default_factory=dict)
     merged: set[Area] = field(default_factory=set)
     tables: dict[str, Area] = field(default_factory=dict)
-    print_area: str = ""
+    printed: tuple[Area, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
