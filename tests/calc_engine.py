@@ -6,6 +6,7 @@ Rows and columns count from 1 where xlwings sees them, from 0 in :class:`Area`.
 
 from __future__ import annotations
 
+import atexit
 import datetime as dt
 import json
 import os
@@ -16,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import xlwings as xw
+from calc_formulas import sheet_in_excel, to_calc, to_excel
 from office import Office, sent
 from xlsxwriter.utility import xl_rowcol_to_cell
 from xlwings.base_classes import _UNSET
@@ -28,6 +30,9 @@ LOG = "GRASP_XL_TEST_LOG"
 
 DATE, LOGICAL = 2, 1024  # com.sun.star.util.NumberFormat
 CONTENTS, FORMATS = 1 + 2 + 4 + 16, 32 + 64  # com.sun.star.sheet.CellFlags
+_CELLS = re.compile(r"\$?[A-Z]{1,3}\$?\d+(:\$?[A-Z]{1,3}\$?\d+)?", re.IGNORECASE)
+_OWN_ERROR = re.compile(r"Err:\d+")
+_NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)(E[+-]?\d+)?\s*", re.IGNORECASE)
 EPOCH = dt.datetime(1899, 12, 30)  # noqa: DTZ001 (cells know no time zone)
 ERRORS = ("#N/A", "#REF!", "#DIV/0!", "#VALUE!", "#NAME?", "#NUM!", "#NULL!")
 
@@ -57,62 +62,6 @@ LINE_STYLES = {
     "dash_dot_dot": 17,
 }
 LINE_WIDTHS = {"hairline": 2, "thin": 26, "medium": 62, "thick": 88}  # 1/100 mm
-
-_TEXT = r'"(?:[^"]|"")*"|#[A-Z]+(?:/[A0])?[!?]?'  # and errors: they stay as they are
-_SHEET = r"'(?:[^']|'')+'"
-_OF_CALC = re.compile(
-    rf"{_TEXT}|\$?({_SHEET}|[^\W\d]\w*)\.(?=\$?[A-Z]{{1,3}}(?:\$?\d|:)|\$?\d+:|#REF!)|[{{}};|~!]"
-)
-_OF_EXCEL = re.compile(rf"{_TEXT}|({_SHEET}|[^\W\d][\w.]*)!|_xlfn\.|[{{}};,]")
-_PLAIN_SHEET = re.compile(r"(?![A-Z]{1,3}\d+$|R\d*C?\d*$|C\d*$)[^\W\d][\w.]*", re.IGNORECASE)
-_OWN_ERROR = re.compile(r"Err:\d+")
-_NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)(E[+-]?\d+)?\s*", re.IGNORECASE)
-
-
-def to_excel(formula: str) -> str:
-    """Turn LibreOffice's way to write a formula into Excel's.
-
-    Examples
-    --------
-    >>> print(to_excel("=SUM($'A B'.$C$1;$Calc.D2;{1;2|3;4})"))
-    =SUM('A B'!$C$1,Calc!D2,{1,2;3,4})
-    """
-    formula = formula[1:-1] if formula.startswith("{=") else formula  # of a whole block of cells
-    signs = {";": ",", "|": ";", "~": ",", "!": " "}
-
-    def change(part: re.Match[str]) -> str:
-        return f"{_sheet(part[1])}!" if part[1] else signs.get(part[0], part[0])
-
-    return _OF_CALC.sub(change, formula)
-
-
-def to_calc(formula: str) -> str:
-    """Turn Excel's way to write a formula into LibreOffice's.
-
-    Examples
-    --------
-    >>> print(to_calc("=SUM('A B'!$C$1,Calc!D2,{1,2;3,4})"))
-    =SUM($'A B'.$C$1;$'Calc'.D2;{1;2|3;4})
-    """
-    inside = False  # of a constant array
-
-    def change(part: re.Match[str]) -> str:
-        nonlocal inside
-        if part[1]:
-            name = part[1] if part[1].startswith("'") else f"'{part[1]}'"
-            return f"${name}."
-        if part[0] in "{}":
-            inside = part[0] == "{"
-        signs = {",": ";", ";": "|" if inside else ";", "_xlfn.": ""}
-        return signs.get(part[0], part[0])
-
-    return _OF_EXCEL.sub(change, formula)
-
-
-def _sheet(name: str) -> str:
-    """Write a sheet's name as Excel does: in quotes only where they are needed."""
-    plain = name.strip("'")
-    return plain if _PLAIN_SHEET.fullmatch(plain) else f"'{plain}'"
 
 
 def read_typed(value: Any) -> float | bool | str | dt.datetime | None:
@@ -357,7 +306,10 @@ class _Listed:
         members = self.listed()
         if isinstance(key, int):
             return members[key - 1]
-        return next(one for one in members if one.name.lower() == key.lower())
+        found = [one for one in members if one.name.lower() == key.lower()]
+        if not found:
+            raise KeyError(key)
+        return found[0]
 
     def __contains__(self, key: int | str) -> bool:
         return key in range(1, 1 + len(self)) or key in [one.name for one in self]
@@ -368,12 +320,6 @@ class Sheets(_Listed):
 
     def listed(self) -> list[Sheet]:
         return [Sheet(self.parent, name) for name in self.do("sheets")]
-
-    def __call__(self, key: int | str) -> Sheet:
-        try:
-            return super().__call__(key)
-        except StopIteration:
-            raise KeyError(key) from None
 
     @property
     def active(self) -> Sheet:
@@ -422,12 +368,16 @@ class Sheet:
     def activate(self) -> None:
         self.do("activate", sheet=self.name)
 
+    select = activate
+
     def _block(self, place: Any) -> Area:
         if isinstance(place, Range):
             return place.area
         if isinstance(place, tuple):
             return Area(self.name, place[0] - 1, place[1] - 1)
-        return area_of(f"'{self.name}'!{place}")
+        if _CELLS.fullmatch(place):
+            return area_of(f"'{self.name}'!{place.upper()}")
+        return self.book.names(place).refers_to_range.area
 
 
 class PageSetup:
@@ -485,7 +435,7 @@ class Names(_Listed):
         return [(name.name, name) for name in self.listed()]
 
     def contains(self, key: str) -> bool:
-        return key.lower() in [name.lower() for name in self.do("names")]
+        return key.lower() in [name.name.lower() for name in self]
 
     def add(self, name: str, refers_to: str) -> Name:
         made = Name(self.parent, name)
@@ -494,24 +444,30 @@ class Names(_Listed):
 
 
 class Name:
-    """One defined name."""
+    """One defined name; the key is LibreOffice's name for it."""
 
     api = True
 
-    def __init__(self, book: Book, name: str) -> None:
+    def __init__(self, book: Book, key: str) -> None:
         self.book = book
-        self.name = name
+        self.key = key
+
+    @property
+    def name(self) -> str:
+        sheet, _, name = self.key.rpartition("!")
+        name = name.removeprefix("_xlnm.")
+        return f"{sheet_in_excel(sheet)}!{name}" if sheet else name
 
     def delete(self) -> None:
-        self.book.do("remove_name", name=self.name)
+        self.book.do("remove_name", name=self.key)
 
     @property
     def refers_to(self) -> str:
-        return "=" + to_excel(self.book.do("name", name=self.name, content=None))
+        return "=" + to_excel(self.book.do("name", name=self.key, content=None))
 
     @refers_to.setter
     def refers_to(self, value: str) -> None:
-        self.book.do("name", name=self.name, content=to_calc(value.removeprefix("=")))
+        self.book.do("name", name=self.key, content=to_calc(value.removeprefix("=")))
 
     @property
     def refers_to_range(self) -> Range:
@@ -739,7 +695,7 @@ class Borders:
             changes["LineWidth"] = LINE_WIDTHS[weight]
         if color is not _UNSET:
             changes["Color"] = _rgb(color)
-        self.do("borders", sides=[SIDES[side] for side in sides], changes=changes)
+        self.do("borders", sides=[SIDES[side] for side in sides if side in SIDES], changes=changes)
 
 
 class Border:
@@ -782,5 +738,6 @@ def book_of(office: Office) -> xw.Book:
 def connect(pipe: str, book_name: str) -> xw.Book:
     """Return a workbook that is open in the LibreOffice of another process; see :func:`book_of`."""
     office = Office(pipe=pipe)
+    atexit.register(office.end)
     office.do("bind", name=book_name)
     return book_of(office)

@@ -83,10 +83,11 @@ def test_errors_read_as_text_or_as_nothing(book):
 def test_formulas_are_typed_in_excels_words(book):
     """Formulas with commas, other sheets and constant arrays are typed and calculated, beside constants."""
     cells = book.sheets["GA"].range("A1:C1")
-    cells.formula = [["=SUM('My Sheet'!$A$2,{1,2;3,4})", "=text", 1e-05]]
-    cells.formula = [["=SUM('My Sheet'!$A$2,{1,2;3,4})&\"a,b;'c'!d\"", "'=text", 1e-05]]
-    assert cells.value == ["11.5a,b;'c'!d", "=text", 1e-05]
-    assert cells.formula == (("=SUM('My Sheet'!$A$2,{1,2;3,4})&\"a,b;'c'!d\"", "=text", "1E-05"),)
+    cells.formula = [["=SUM('My Sheet'!$A$2,{1,2;3,4},TRUE)&\"a,b;'c'!d\"", "'=text", 1e-05]]
+    assert cells.value == ["12.5a,b;'c'!d", "=text", 1e-05]
+    assert cells.formula == (
+        ("=SUM('My Sheet'!$A$2,{1,2;3,4},TRUE)&\"a,b;'c'!d\"", "=text", "1E-05"),
+    )
 
 
 def test_nothing_is_calculated_while_calculation_is_manual(book):
