@@ -371,6 +371,21 @@ class Live(Session):
             if self._format(cell).FormatString == "General":
                 cell.NumberFormat = self._book.NumberFormats.getStandardFormat(kind, Locale())
 
+    def replace_module(self, library, module, source):
+        """Give a macro module another source."""
+        self._book.BasicLibraries.getByName(library).replaceByName(module, source)
+
+    def press(self, sheet, caption):
+        """Do what a click on a button does."""
+        for form in self._book.Sheets.getByName(sheet).DrawPage.Forms:
+            for number, button in enumerate(form):
+                if button.Label == caption:
+                    (event,) = form.getScriptEvents(number)
+                    script = self._book.ScriptProvider.getScript(event.ScriptCode)
+                    script.invoke((), (), ())
+                    return
+        raise ValueError(f"no button {caption} on {sheet}")
+
     def protect(self, sheet):
         """Protect a sheet, without a password."""
         self._book.Sheets.getByName(sheet).protect("")

@@ -184,7 +184,7 @@ class Pen:
 
     def fill_if_used(self, cell: Area, colour: str) -> None:
         """Give a cell a colour as long as it holds anything."""
-        criteria = f"=LEN({cell.absolute})>0"
+        criteria = f'={cell.absolute}<>""'
         look = {"type": "formula", "criteria": criteria, "format": self.formats.filled(colour)}
         self.sheet.conditional_format(cell.row, cell.column, cell.row, cell.column, look)
 

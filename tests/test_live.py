@@ -1,0 +1,353 @@
+"""The buttons fill the open workbook: xlwings drives LibreOffice here, as it drives Excel."""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import calc_engine
+import openpyxl
+import pytest
+import xlwings as xw
+from office import Office, run_office
+
+from grasp_xl import live
+from grasp_xl.cli.program import main
+from grasp_xl.live import running, worker
+from grasp_xl.workbook import layout
+from grasp_xl.workbook.cells import same_formula
+
+SAMPLES = Path(__file__).parents[1] / "workbooks"
+ACCURACY = 1e-9
+GENERATIONS = 3000
+OF_THE_RUN = ("Input file", "Input SHA-256", "Started", "Ended", "Seconds of search")
+TIMES = ("Seconds of exact search", "Time of the exact search (s)")
+"""Labels of what is another each time."""
+
+
+@pytest.fixture(autouse=True)
+def own_marks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keep the marks of searches apart, and do not wait at the end of one."""
+    monkeypatch.setattr(running, "user_cache_path", lambda _: tmp_path / "cache")
+    monkeypatch.setattr(worker, "SHOWN_SECONDS", 0)
+
+
+@pytest.fixture
+def log(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Note what a person sees."""
+    path = tmp_path / "log.jsonl"
+    monkeypatch.setenv(calc_engine.LOG, str(path))
+    return path
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Make a workbook with buttons."""
+    path = tmp_path_factory.mktemp("made") / "bracket.xlsm"
+    assert main(["new", str(SAMPLES / "bracket.xlsx"), "-o", str(path), "--quiet"]) == 0
+    return path
+
+
+@pytest.fixture
+def book(office: Office, made: Path) -> Iterator[xw.Book]:
+    """Open it, with few generations and what a designer has besides."""
+    office.open(made)
+    opened = calc_engine.book_of(office)
+    typed(opened, "Generations", GENERATIONS)
+    yield opened
+    office.do("close")
+
+
+def typed(book: xw.Book, name: str, value: object) -> None:
+    """Type into a named cell."""
+    book.names[name].refers_to_range.value = value
+
+
+def alerts(log: Path) -> list[str]:
+    """Texts of the message boxes."""
+    return [entry["text"] for entry in calc_engine.noted(log) if entry["kind"] == "alert"]
+
+
+def contents(book: xw.Book) -> dict[str, Any]:
+    """Return all values and formulas, by sheet."""
+    cells = {sheet.name: sheet.used_range for sheet in book.sheets}
+    return {name: (used.address, used.value, used.formula) for name, used in cells.items()}
+
+
+def same(one: object, other: object) -> bool:
+    """Compare two values as far as programs keep their digits."""
+    numbers = int | float
+    if isinstance(one, numbers) and isinstance(other, numbers):
+        return abs(one - other) <= ACCURACY * max(1.0, abs(one))
+    return (one or None) == (other or None)
+
+
+def differences(one: Path, other: Path) -> list[str]:
+    """Name the cells in which two workbooks differ: values, or formulas where there are any."""
+    found = []
+    books = [openpyxl.load_workbook(path) for path in (one, other)]
+    values = [openpyxl.load_workbook(path, data_only=True) for path in (one, other)]
+    for sheet in books[0]:
+        for row in sheet.iter_rows():
+            if row[0].value in OF_THE_RUN + TIMES:
+                continue
+            for cell in row:
+                formulas = [str(each[sheet.title][cell.coordinate].value or "") for each in books]
+                shown = [each[sheet.title][cell.coordinate].value for each in values]
+                if formulas[0].startswith("="):  # LibreOffice writes TRUE as 1 there
+                    first, second = (
+                        same_formula(text).replace("TRUE", "1").replace("FALSE", "0")
+                        for text in formulas
+                    )
+                    if first != second and "CALC" not in first:
+                        found.append(f"{sheet.title}!{cell.coordinate} {first} {second}")
+                if not same(*shown):
+                    found.append(f"{sheet.title}!{cell.coordinate} {shown}")
+    return found
+
+
+def test_a_run_equals_the_command_lines_cell_for_cell(
+    book: xw.Book, office: Office, made: Path, tmp_path: Path, log: Path
+) -> None:
+    """Values, formulas, table sizes, names; the designer's own things stay, on every sheet."""
+    own = book.sheets["Run Log"].range("H2:I3")
+    own.formula = [["mine", "=1+1"], [3, "=GA!$B$4"]]
+    worker.work("run")
+    assert alerts(log) == []
+    office.save(tmp_path / "live.xlsx")
+    told = ["--generations", str(GENERATIONS), "--quiet"]
+    assert main(["run", str(made), "-o", str(tmp_path / "told.xlsm"), *told]) == 0
+    assert differences(tmp_path / "told.xlsm", tmp_path / "live.xlsx") == []
+    assert own.formula == (("mine", "=1+1"), ("3", "=GA!$B$4"))
+    filled, expected = (
+        openpyxl.load_workbook(tmp_path / name) for name in ("live.xlsx", "told.xlsm")
+    )
+    for sheet in expected:
+        assert sheet.tables.items() == filled[sheet.title].tables.items()
+    printed = book.sheets["Valid Designs"].page_setup.print_area
+    assert printed == expected["Valid Designs"].print_area.replace("'Valid Designs'!", "")
+    for name in ("ProofTitle", "RandomState", "Child1"):
+        area = expected.defined_names[name].attr_text
+        assert layout.area_of(book.names[name].refers_to[1:]) == layout.area_of(area)
+    look = book.sheets["Fitness Table"].range("B4"), book.sheets["Fitness Table"].range("B7")
+    assert look[0].number_format == look[1].number_format
+    assert look[0].color == look[1].color
+
+
+def test_a_second_run_and_a_proof_replace_the_first(
+    book: xw.Book, office: Office, tmp_path: Path, log: Path
+) -> None:
+    """Also with other inputs, a typed What-if grasp, and fewer designs than before."""
+    worker.work("run")
+    typed(book, "Seed", 7)
+    typed(book, "Generations", 200)
+    typed(book, "CostGoal", 90)
+    book.names["WhatIf"].refers_to_range.value = [[1, 5, 1, 1, 1, 1], [2, 51, 54, 1, 1, 1]]
+    office.save(tmp_path / "before.xlsx")
+    worker.work("run")
+    worker.work("prove")
+    assert alerts(log) == []
+    office.save(tmp_path / "live.xlsx")
+    first = ["run", str(tmp_path / "before.xlsx"), "-o", str(tmp_path / "told.xlsx"), "--quiet"]
+    assert main(first) == 0
+    assert main(["solve", str(tmp_path / "told.xlsx"), "-o", str(tmp_path / "all.xlsx")]) == 0
+    assert differences(tmp_path / "all.xlsx", tmp_path / "live.xlsx") == []
+
+
+def test_wrong_inputs_are_told_and_nothing_changes(book: xw.Book, log: Path) -> None:
+    """Every problem in one message box, with its cell; no sheet is touched."""
+    book.sheets[layout.OPTION_SPACE].range("B5").value = "heavy"
+    typed(book, "MutationOneIn", 0.5)
+    before = contents(book)
+    for command in ("check", "run", "prove"):
+        worker.work(command)
+    told = alerts(log)
+    assert len(told) == 3
+    for text in told:
+        assert "Option Space!B5: found the text 'heavy'" in text
+        assert "GA!B6" in text
+        assert "Traceback" not in text
+    assert contents(book) == before
+
+
+def test_what_is_not_ours_is_never_replaced(book: xw.Book, log: Path) -> None:
+    """A note under the list of designs, where the results would go, stops the run's writing."""
+    sheet = book.sheets[layout.VALID_DESIGNS]
+    sheet.range("C12").value = "mine"
+    before = contents(book)
+    worker.work("run")
+    (told,) = alerts(log)
+    assert told.startswith("What stands in Valid Designs!C12 is not ours")
+    assert contents(book) == before
+
+
+def test_other_sizes_are_refused_before_any_search(book: xw.Book, log: Path) -> None:
+    """A workbook has as many cards as it was made with."""
+    typed(book, "Children", 8)
+    before = contents(book)
+    worker.work("run")
+    (told,) = alerts(log)
+    assert "found 8 children, expected 5, for which this workbook has room" in told
+    assert contents(book) == before
+
+
+def test_what_excel_refuses_leaves_the_sheets_as_they_were(
+    book: xw.Book, office: Office, log: Path
+) -> None:
+    """All or nothing: also where the first sheets were filled already."""
+    office.do("protect", sheet="Calc")
+    before = contents(book)
+    worker.work("run")
+    (told,) = alerts(log)
+    assert told.startswith("Excel did not take the results")
+    after = contents(book)
+    for name, (_, values, formulas) in before.items():
+        assert after[name][1] == values, name
+        assert [[same_formula(text) for text in row] for row in after[name][2]] == [
+            [same_formula(text) for text in row] for row in formulas
+        ]
+
+
+def test_inputs_that_change_meanwhile_keep_the_sheets_as_they_are(
+    book: xw.Book, log: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The result would be that of other inputs."""
+    search = worker.prove_run
+
+    def and_type(*args: Any, **options: Any) -> Any:
+        typed(book, "FoSGoal", 2.5)
+        return search(*args, **options)
+
+    monkeypatch.setattr(worker, "prove_run", and_type)
+    before = contents(book)
+    worker.work("run")
+    (told,) = alerts(log)
+    assert "inputs that changed while the search was at work: FoS goal 2.5, not 3" in told
+    assert contents(book)["Run Log"] == before["Run Log"]
+
+
+def test_stop_ends_a_run_at_once_and_keeps_the_best(book: xw.Book, log: Path) -> None:
+    """Within half a second the search is over; the status bar changes five times a second at most."""
+    typed(book, "Generations", 1_000_000_000)
+    mark = running.Running.on(book)
+    moments: list[float] = []
+
+    def press_stop() -> None:
+        while len(calc_engine.noted(log)) < 6:
+            time.sleep(0.05)
+        moments.append(time.monotonic())
+        mark.ask_to_stop()
+
+    other = threading.Thread(target=press_stop)
+    fill = worker._fill
+
+    def then_fill(*found: Any) -> None:
+        moments.append(time.monotonic())
+        fill(*found)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(worker, "_fill", then_fill)
+        other.start()
+        worker.work("run")
+        other.join()
+    pressed, ended = moments
+    assert ended - pressed < 0.5
+    assert alerts(log) == []
+    found = {row[0]: row[1] for row in book.sheets["Run Log"].range("A1:B30").value}
+    assert found["Stop reason"] == "interrupted (INTERRUPTED: best so far)"
+    assert found["Best value"] < 4
+    times = [entry["time"] for entry in calc_engine.noted(log) if entry["text"]]
+    assert min(b - a for a, b in pairwise(times[:-1])) > 0.19  # the last tells the outcome
+    assert not mark.is_alive
+
+
+def test_check_tells_what_any_grasp_can_reach(book: xw.Book, log: Path) -> None:
+    """In a message box, with warnings; nothing is written."""
+    before = contents(book)
+    worker.work("check")
+    (told,) = alerts(log)
+    assert "suction: 28 places" in told
+    assert told.endswith("No problem found.")
+    assert contents(book) == before
+
+
+@pytest.mark.usefixtures("book")
+def test_stop_without_a_search_says_so(log: Path) -> None:
+    live.stop()
+    assert alerts(log) == [live.IDLE]
+
+
+def test_an_unsaved_workbook_is_filled(office: Office, made: Path, log: Path) -> None:
+    """Nothing is read from disk: the same holds for one whose name is an address."""
+    office.open(made, unsaved=True)
+    book = calc_engine.book_of(office)
+    typed(book, "Generations", 50)
+    worker.work("run")
+    assert alerts(log) == []
+    assert book.sheets["Run Log"].range("B4").value == book.name
+    office.do("close")
+
+
+# --- the buttons themselves ---
+
+EMPTY = "Rem Attribute VBA_ModuleType=VBAModule\nOption VBASupport 1\n"
+SHIM = f"""{EMPTY}
+Public Function RunPython(PythonCommand As String)
+    Shell "{sys.executable}", 0, "-c " & Chr(34) & PythonCommand & Chr(34)
+End Function
+"""
+"""Stands for xlwings' modules: LibreOffice can run nothing in a project with one of them."""
+
+CONNECT = """import calc_engine
+calc_engine.connect({pipe!r}, {name!r})
+"""
+"""What each Python that a button starts does first, as xlwings finds Excel by itself."""
+
+
+@pytest.fixture
+def pressed(
+    made: Path, tmp_path: Path, log: Path, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Office]:
+    """Open the workbook with its macros, in a LibreOffice that gives Python what it needs here."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", os.pathsep.join([str(tmp_path), *filter(None, sys.path)]))
+        patch.setenv(calc_engine.LOG, str(log))
+        for office in run_office(tmp_path_factory.mktemp("pressed")):
+            connect = CONNECT.format(pipe=office.pipe, name=made.name)
+            (tmp_path / "sitecustomize.py").write_text(connect)
+            office.open(made, macros=True)
+            for module, source in (("xlwings", SHIM), ("Dictionary", EMPTY)):
+                office.do("replace_module", library="VBAProject", module=module, source=source)
+            yield office
+
+
+def wait_for(truth: Callable[[], bool], seconds: float = 60) -> None:
+    """Look again and again until something holds."""
+    patience = time.monotonic() + seconds
+    while not truth():
+        assert time.monotonic() < patience
+        time.sleep(0.2)
+
+
+def test_a_press_of_the_button_fills_the_sheets(pressed: Office, log: Path) -> None:
+    """It returns at once; a worker fills the open workbook; another press of Run is told to wait; Stop ends it."""
+    pressed.enter({"Generations": 300})
+    began = time.monotonic()
+    pressed.do("press", sheet="GA", caption="Run")
+    assert time.monotonic() - began < 5
+    wait_for(lambda: pressed.value("GenerationsDone") == 300)
+    wait_for(lambda: not calc_engine.noted(log)[-1]["text"])
+    pressed.enter({"Generations": 1_000_000_000})
+    pressed.do("press", sheet="GA", caption="Run")
+    wait_for(lambda: "generation" in str(calc_engine.noted(log)[-1]["text"]))
+    pressed.do("press", sheet="GA", caption="Run")
+    wait_for(lambda: alerts(log) == [live.BUSY])
+    pressed.do("press", sheet="GA", caption="Stop")
+    wait_for(lambda: str(pressed.value("StopReason")).startswith("interrupted"))
+    assert pressed.value("GenerationsDone") > 300
