@@ -19,7 +19,6 @@ from grasp_xl.live.words import typed
 from grasp_xl.workbook.cells import Grid, Value
 from grasp_xl.workbook.layout import Area
 from grasp_xl.workbook.patch import Patch, SheetPatch
-from grasp_xl.workbook.styles import FONT, Style
 from grasp_xl.workbook.written import CellValue, WrittenCell
 
 TITLE = "grasp_xl"
@@ -30,9 +29,6 @@ MAX_CELLS = 4_000_000
 
 STATUS_SECONDS = 0.2
 """Least time between two texts in the status bar."""
-
-SIDES = {"edge_top": "top", "edge_bottom": "bottom"}
-"""Sides of a band, by xlwings' names, as our styles name them."""
 
 Book = xw.Book
 
@@ -229,11 +225,9 @@ def _apply_to_sheet(sheet: Any, patch: SheetPatch, untouched: Callable[[Area], b
         _range(sheet, area).formula = [
             [_entered(patch.cell(row, column)) for column in _columns(area)] for row in _of(area)
         ]
-    for area in patch.bared():
-        _range(sheet, area).clear_formats()
-    for style, areas in patch.restyled().items():
+    for (name, value), areas in patch.looks().items():
         for area in areas:
-            _dress(_range(sheet, area), style)
+            FORMATS[name](_range(sheet, area), value)
     for area in patch.merged:
         _range(sheet, area).merge()
     if patch.before.printed != patch.after.printed:
@@ -262,20 +256,45 @@ def _entered(cell: WrittenCell | None) -> CellValue:
     return typed(cell.value)
 
 
-def _dress(cells: Any, style: Style) -> None:  # noqa: ANN401 (an xlwings range)
-    """Give cells a look."""
-    look = {"font_size": 9, **style.look}
-    cells.number_format = look.get("num_format", "General")
-    cells.color = look.get("bg_color")
-    font = cells.font
-    font.name, font.size = FONT, look["font_size"]
-    font.bold, font.italic = look.get("bold", False), look.get("italic", False)
-    font.color = look.get("font_color", "#000000")
-    cells.horizontal_alignment = look.get("align", "general")
-    cells.vertical_alignment = {"vcenter": "center"}.get(look.get("valign", ""), "bottom")
-    cells.wrap_text = look.get("text_wrap", False)
-    if "border" in look:
-        cells.borders.set("all", line_style="continuous", color=look["border_color"])
-    for side, ours in SIDES.items():
-        if ours in look:
-            cells.borders.set(side, line_style="continuous", color=look[f"{ours}_color"])
+# --- looks ---
+
+
+def _line(sides: str) -> Callable[[Any, Any], None]:
+    """Make a function that draws a thin line, or takes it away."""
+
+    def draw(cells: Any, colour: str | None) -> None:  # noqa: ANN401 (an xlwings range)
+        if colour is None:
+            cells.borders.set(sides, line_style=None)
+        else:
+            cells.borders.set(sides, line_style="continuous", color=colour)
+
+    return draw
+
+
+def _of_cells(name: str) -> Callable[[Any, Any], None]:
+    return lambda cells, value: setattr(cells, name, value)
+
+
+def _of_font(name: str) -> Callable[[Any, Any], None]:
+    return lambda cells, value: setattr(cells.font, name, value)
+
+
+def _valign(cells: Any, value: str) -> None:  # noqa: ANN401 (an xlwings range)
+    cells.vertical_alignment = {"vcenter": "center"}.get(value, value)
+
+
+FORMATS: dict[str, Callable[[Any, Any], None]] = {
+    "num_format": _of_cells("number_format"),
+    "bg_color": _of_cells("color"),
+    "bold": _of_font("bold"),
+    "italic": _of_font("italic"),
+    "font_size": _of_font("size"),
+    "font_color": _of_font("color"),
+    "align": _of_cells("horizontal_alignment"),
+    "valign": _valign,
+    "text_wrap": _of_cells("wrap_text"),
+    "border_color": _line("all"),
+    "top_color": _line("edge_top"),
+    "bottom_color": _line("edge_bottom"),
+}
+"""How a format property of our styles is set through xlwings."""

@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 from grasp_xl.workbook.cells import Source, same_formula
 from grasp_xl.workbook.layout import Area
-from grasp_xl.workbook.styles import Style
+from grasp_xl.workbook.styles import UNFORMATTED, formats_of
 from grasp_xl.workbook.written import WrittenBook, WrittenCell, WrittenSheet
 
 Place = tuple[int, int]
@@ -58,18 +59,20 @@ class SheetPatch:
         """Return what a cell shall hold."""
         return self.after.cells.get((row, column))
 
-    def restyled(self) -> dict[Style, list[Area]]:
-        """Return the blocks of cells that get another look, by look."""
-        old, new = self.before.cells, self.after.cells
-        places: dict[Style, set[Place]] = defaultdict(set)
-        for place, cell in new.items():
-            if place not in old or old[place].style is not cell.style:
-                places[cell.style].add(place)
-        return {style: [*_blocks(self.sheet, cells)] for style, cells in places.items()}
+    def looks(self) -> dict[tuple[str, Any], list[Area]]:
+        """Return the blocks of cells that get another format property, by property and value.
 
-    def bared(self) -> list[Area]:
-        """Return the blocks of cells that are ours no longer."""
-        return [*_blocks(self.sheet, self.before.cells.keys() - self.after.cells.keys())]
+        By property and not by style, since neighbours of different styles share most of them.
+        """
+        old, new = self.before.cells, self.after.cells
+        places: dict[tuple[str, Any], set[Place]] = defaultdict(set)
+        for place in old.keys() | new.keys():
+            was = formats_of(old[place].style) if place in old else UNFORMATTED
+            shall = formats_of(new[place].style) if place in new else UNFORMATTED
+            for name, value in shall.items():
+                if was[name] != value:
+                    places[name, value].add(place)
+        return {what: [*_blocks(self.sheet, cells)] for what, cells in places.items()}
 
     @property
     def unmerged(self) -> set[Area]:

@@ -7,12 +7,15 @@ thesis's figure 34, cups cyan and magnets magenta as in its option-space picture
 from __future__ import annotations
 
 from enum import Enum
+from functools import cache
 from typing import Any
 
 from xlsxwriter import Workbook
 from xlsxwriter.format import Format
 
 FONT = "Arial"
+FONT_SIZE, BOOK_FONT_SIZE = 9, 10
+"""Of styles, and of cells without one (points)."""
 FIXED_FONT = {"font_name": FONT, "font_scheme": "none"}
 """The font of every cell; with a scheme, Excel would show the theme's instead."""
 
@@ -123,6 +126,30 @@ class Style(Enum):
     DATE = "date", {**_COMPUTED, "num_format": "yyyy-mm-dd hh:mm:ss", "align": "left"}
 
 
+UNFORMATTED: dict[str, Any] = {
+    "num_format": "General",
+    "bg_color": None,
+    "bold": False,
+    "italic": False,
+    "font_size": BOOK_FONT_SIZE,
+    "font_color": "#000000",
+    "align": "general",
+    "valign": "bottom",
+    "text_wrap": False,
+    "border_color": None,
+    "top_color": None,
+    "bottom_color": None,
+}
+"""Format properties of a cell without a style: all that the look of one can change."""
+
+
+@cache
+def formats_of(style: Style) -> dict[str, Any]:
+    """Return all format properties of a style; a border with a colour is a thin line."""
+    look = {**UNFORMATTED, "font_size": FONT_SIZE, **style.look}
+    return {name: look[name] for name in UNFORMATTED}
+
+
 def text_colour(fill: str) -> str:
     """Return black or white, whichever is easier to read on a colour.
 
@@ -152,6 +179,6 @@ class Formats:
 
     def __getitem__(self, style: Style) -> Format:
         if style.name not in self._made:
-            look = {**FIXED_FONT, "font_size": 9, **style.look}
+            look = {**FIXED_FONT, "font_size": FONT_SIZE, **style.look}
             self._made[style.name] = self._book.add_format(look)
         return self._made[style.name]

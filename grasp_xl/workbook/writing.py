@@ -28,7 +28,7 @@ from grasp_xl.workbook.picker import DESIGN_PICK, NO_PICKS, TRADE_OFF_PICK, Pick
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.run_log import Origin, write_run_log
 from grasp_xl.workbook.stamp import PLACEHOLDER, STAMP_PROPERTY, stamped
-from grasp_xl.workbook.styles import FIXED_FONT, Formats
+from grasp_xl.workbook.styles import BOOK_FONT_SIZE, FIXED_FONT, Formats
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs, write_trade_offs
 from grasp_xl.workbook.written import CellValue, WrittenBook
 
@@ -153,7 +153,7 @@ def _new_book(file: io.BytesIO) -> xlsxwriter.Workbook:
         {
             "in_memory": True,
             # Column widths, and so the scale of charts, are counted in digits of this font.
-            "default_format_properties": {**FIXED_FONT, "font_size": 10},
+            "default_format_properties": {**FIXED_FONT, "font_size": BOOK_FONT_SIZE},
             "strings_to_formulas": False,
             "strings_to_urls": False,
             "strings_to_numbers": False,
