@@ -8,7 +8,6 @@ import tomllib
 import warnings
 import zipfile
 from collections.abc import Sequence
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +15,14 @@ import pytest
 import xlwings
 from npm import complaints
 from office import Office
-from xlsxwriter import Workbook
 
+from grasp_xl.cli.program import main
 from grasp_xl.macros import FULL, MODULES, PROJECTS, WITH_TRADE_OFFS, project
 from grasp_xl.macros.build import build
 from grasp_xl.workbook.layout import SHEETS
 
-PYPROJECT = Path(__file__).parent.parent / "pyproject.toml"
+ROOT = Path(__file__).parent.parent
+PYPROJECT, SAMPLE = ROOT / "pyproject.toml", ROOT / "workbooks" / "bracket.xlsx"
 SOURCES = {path.stem: path.read_bytes().decode("ascii") for path in MODULES}
 DIGESTS = {
     FULL: "4fbc2ea98d167880321e2f75a73f3bc9adb02abc53d795791442a344f76d09b5",
@@ -66,18 +66,21 @@ def without_attributes(source: str) -> list[str]:
     return [line for line in lines if not line.startswith("Attribute ")]
 
 
+@pytest.fixture(scope="module")
+def books(tmp_path_factory: pytest.TempPathFactory) -> dict[Sequence[str], Path]:
+    """Make a workbook with macros for each project, as a person does."""
+    folder = tmp_path_factory.mktemp("macros")
+    full, with_trade_offs = folder / "full.xlsm", folder / "trade-offs.xlsm"
+    assert main(["new", str(SAMPLE), "-o", str(full), "--quiet"]) == 0
+    front = ["front", str(SAMPLE), "-o", str(with_trade_offs), "--grid", "1", "--quiet"]
+    assert main(front) == 0
+    return {FULL: full, WITH_TRADE_OFFS: with_trade_offs}
+
+
 @pytest.fixture
-def book(sheets: Sequence[str], tmp_path: Path) -> Path:
-    """Write a workbook with macros, and a button for each."""
-    path = tmp_path / "book.xlsm"
-    with Workbook(path) as written:
-        for sheet in sheets:
-            written.add_worksheet(sheet).set_vba_name()
-        for row, macro in enumerate(MACROS):
-            written.get_worksheet_by_name("GA").insert_button(row, 1, {"macro": macro})
-        written.add_vba_project(BytesIO(project(sheets)), is_stream=True)
-        written.set_vba_name()
-    return path
+def book(sheets: Sequence[str], books: dict[Sequence[str], Path]) -> Path:
+    """Return the workbook with these sheets."""
+    return books[sheets]
 
 
 # --- the sources ---
@@ -167,7 +170,7 @@ def test_other_sheets_have_no_project(sheets):
 
 @every_project
 def test_code_names_are_those_of_the_documents(sheets, book):
-    """XlsxWriter gives workbook and sheets the names that the document modules have."""
+    """Workbook and sheets have the names that the document modules have."""
     with zipfile.ZipFile(book) as parts:
         assert parts.read("xl/vbaProject.bin") == project(sheets)
         names = ["workbook", *(f"worksheets/sheet{number + 1}" for number in range(len(sheets)))]

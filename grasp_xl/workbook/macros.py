@@ -46,6 +46,8 @@ SETTINGS_NOTE = (
     "that has grasp_xl. On another computer: grasp-xl excel --repair BOOK."
 )
 NOTE_COLUMN = 3
+ROOM_FOR_SETTINGS = 20
+"""Rows that are printed: a person may add settings."""
 
 _PROJECT, _SIGNATURE = "vbaProject.bin", "vbaProjectSignature.bin"
 _CODE_NAME = re.compile(rb'<sheetPr\b[^>]*?\bcodeName="([^"]+)"')
@@ -120,7 +122,7 @@ def write_settings(pen: Pen, settings: Mapping[str, str]) -> None:
         pen.write(row, 1, value or None, Style.INPUT_TEXT)
     pen.write(0, NOTE_COLUMN, SETTINGS_NOTE, Style.NOTE)
     pen.widths(0, 34, 90, 2)
-    pen.print_pages(Area(CONFIGURATION, 0, 0, len(settings), 2))
+    pen.print_pages(Area(CONFIGURATION, 0, 0, ROOM_FOR_SETTINGS, 2))
 
 
 def read_macros(package: Package, source: Source) -> Macros | None:
