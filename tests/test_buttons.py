@@ -16,7 +16,7 @@ from grasp_xl.cli.program import main
 from grasp_xl.macros import FULL, project
 from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.layout import CONFIGURATION
-from grasp_xl.workbook.macros import BUTTONS
+from grasp_xl.workbook.macros import BUTTONS, SETTINGS
 from grasp_xl.workbook.stamp import is_untouched
 
 SAMPLE = Path(__file__).parents[1] / "workbooks" / "bracket.xlsx"
@@ -79,7 +79,9 @@ def test_the_buttons_find_the_python_that_made_them(
         assert main(["new", str(SAMPLE), "-o", str(path), "--quiet"]) == 0
     found = settings(path)
     assert found[name] == sys.executable
-    assert [value for key, value in found.items() if key != name] == ["", "false"]
+    assert {key: value for key, value in found.items() if key != name and value} == {
+        "ADD_WORKBOOK_TO_PYTHONPATH": "false"
+    }
 
 
 def test_a_run_keeps_the_kind_of_workbook(book: Path) -> None:
@@ -119,8 +121,8 @@ def test_in_place_macros_signatures_and_settings_of_others_are_kept(book: Path) 
 
 
 _THEIR_SETTING = (
-    b'<row r="4"><c r="A4" t="inlineStr"><is><t>SHOW CONSOLE</t></is></c>'
-    b'<c r="B4" t="inlineStr"><is><t>true</t></is></c></row>'
+    b'<row r="7"><c r="A7" t="inlineStr"><is><t>SHOW CONSOLE</t></is></c>'
+    b'<c r="B7" t="inlineStr"><is><t>true</t></is></c></row>'
 )
 
 
@@ -150,11 +152,7 @@ def test_a_repair_puts_in_this_python(book: Path, monkeypatch: pytest.MonkeyPatc
     changed = {name for name in before if before[name] != after[name]}
     assert changed == {PART, "docProps/custom.xml"}
     assert list(before) == list(after)
-    assert settings(book) == {
-        "INTERPRETER_WIN": sys.executable,
-        "INTERPRETER_MAC": "",
-        "ADD_WORKBOOK_TO_PYTHONPATH": "false",
-    }
+    assert settings(book) == {**SETTINGS, "INTERPRETER_WIN": sys.executable}
     assert is_untouched(book)
 
 

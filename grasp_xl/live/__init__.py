@@ -52,7 +52,8 @@ def _start(command: str) -> None:
     if Running.on(book).is_alive:
         tell(book, BUSY)
         return
-    words = [sys.executable, "-m", "grasp_xl.live", command, *sys.argv[1:]]
+    # -P: nothing is imported from the folder that Excel starts in
+    words = [sys.executable, "-P", "-m", "grasp_xl.live", command, *sys.argv[1:]]
     nothing = subprocess.DEVNULL
     apart = {"creationflags": _APART} if os.name == "nt" else {"start_new_session": True}
     subprocess.Popen(words, stdin=nothing, stdout=nothing, stderr=nothing, **apart)  # noqa: S603 (ourselves)

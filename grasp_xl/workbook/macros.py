@@ -38,8 +38,13 @@ BUTTON_ROW_HEIGHT = 20.25
 INTERPRETERS = {"win32": "INTERPRETER_WIN", "darwin": "INTERPRETER_MAC"}
 """Setting with the path of Python, by ``sys.platform``."""
 
-SETTINGS = {**dict.fromkeys(INTERPRETERS.values(), ""), "ADD_WORKBOOK_TO_PYTHONPATH": "false"}
-"""Settings as they are at first: no Python file beside the workbook is ever run."""
+SETTINGS = {
+    **dict.fromkeys(INTERPRETERS.values(), ""),
+    "ADD_WORKBOOK_TO_PYTHONPATH": "false",
+    **dict.fromkeys(("PYTHONPATH", "CONDA PATH", "CONDA ENV"), ""),
+}
+"""Settings as they are at first: also the empty ones overrule a file xlwings.conf that lies beside
+the workbook, so that nothing in its folder has a say in what is run."""
 
 SETTINGS_NOTE = (
     "Settings of the buttons (xlwings). INTERPRETER_WIN and INTERPRETER_MAC: path of the Python "
