@@ -265,6 +265,18 @@ def test_stop_ends_a_run_at_once_and_keeps_the_best(book: xw.Book, log: Path) ->
     assert not mark.is_alive
 
 
+def test_of_two_searches_on_a_workbook_one_is_told_to_wait(book: xw.Book, log: Path) -> None:
+    """Also where both begin before either is seen; the mark of a killed worker hinders nobody."""
+    mark = running.Running.on(book)
+    with mark.marked():
+        worker.work("check")
+    assert alerts(log) == [running.BUSY]
+    mark.mark.touch()
+    os.utime(mark.mark, (0, 0))
+    worker.work("check")
+    assert alerts(log)[-1].endswith("No problem found.")
+
+
 def test_check_tells_what_any_grasp_can_reach(book: xw.Book, log: Path) -> None:
     """In a message box, with warnings; nothing is written."""
     before = contents(book)
@@ -345,7 +357,7 @@ def test_a_press_of_the_button_fills_the_sheets(pressed: Office, log: Path) -> N
     pressed.do("press", sheet="GA", caption="Run")
     wait_for(lambda: "generation" in str(calc_engine.noted(log)[-1]["text"]))
     pressed.do("press", sheet="GA", caption="Run")
-    wait_for(lambda: alerts(log) == [live.BUSY])
+    wait_for(lambda: alerts(log) == [running.BUSY])
     pressed.do("press", sheet="GA", caption="Stop")
     wait_for(lambda: str(pressed.value("StopReason")).startswith("interrupted"))
     assert pressed.value("GenerationsDone") > 300

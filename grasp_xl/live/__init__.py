@@ -11,9 +11,8 @@ import subprocess
 import sys
 
 from grasp_xl.live.excel import calling_book, tell
-from grasp_xl.live.running import Running
+from grasp_xl.live.running import BUSY, Running
 
-BUSY = "A search is at work on this workbook. Press Stop to end it, then try again."
 IDLE = "No search is at work on this workbook."
 
 

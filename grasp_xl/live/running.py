@@ -17,6 +17,7 @@ from typing import Any
 
 from platformdirs import user_cache_path
 
+from grasp_xl.errors import GraspError
 from grasp_xl.search.stop import Interrupt
 
 LOOK_SECONDS = 0.1
@@ -24,6 +25,13 @@ LOOK_SECONDS = 0.1
 
 DEAD_AFTER_SECONDS = 10.0
 """A mark that nobody renewed for so long was left by a worker that was killed."""
+
+
+BUSY = "A search is at work on this workbook. Press Stop to end it, then try again."
+
+
+class BusyError(GraspError):
+    """A search is at work on the workbook."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,10 +70,21 @@ class Running:
 
     @contextmanager
     def marked(self) -> Iterator[Interrupt]:
-        """Mark a search as at work, and give the rule that the wish to stop trips."""
+        """Mark a search as at work, and give the rule that the wish to stop trips.
+
+        Raises
+        ------
+        BusyError
+            If another one is at work: of two that begin at once, one gets the mark.
+        """
         self.mark.parent.mkdir(parents=True, exist_ok=True)
+        if not self.is_alive:
+            self.mark.unlink(missing_ok=True)
+        try:
+            self.mark.touch(exist_ok=False)
+        except FileExistsError:
+            raise BusyError(BUSY) from None
         self.wish.unlink(missing_ok=True)
-        self.mark.touch()
         ask, done = Interrupt(), threading.Event()
 
         def watch() -> None:

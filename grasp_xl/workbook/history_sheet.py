@@ -12,7 +12,7 @@ import numpy as np
 from grasp_xl.search.result import Result, Rows, gene_columns
 from grasp_xl.workbook.layout import HISTORY, HISTORY_ROW, KINDS, Area
 from grasp_xl.workbook.pen import Pen
-from grasp_xl.workbook.proved import NOT_PROVED, Proved, charted
+from grasp_xl.workbook.proved import NOT_PROVED, PROVED_BOUND, Proved, charted
 from grasp_xl.workbook.result_title import write_result_title
 from grasp_xl.workbook.styles import BLUE, GREEN, GREY, Style
 from grasp_xl.workbook.table import (
@@ -40,7 +40,6 @@ The charts' ranges have room for as many, so that a run in an open workbook need
 DRAWN_DIGITS = 6
 """Decimals of what charts draw: else an axis might show only the rounding of equal values."""
 
-PROVED_BOUND = "Proved bound"
 COURSE = {"color": BLUE, "width": 1.75}
 DASHED = {"color": GREY, "width": 1.5, "dash_type": "dash"}
 PROVED_LINE = {"color": GREEN, "width": 1.75, "dash_type": "long_dash"}
@@ -146,7 +145,7 @@ def _steps(pen: Pen, history: Rows, left: int) -> Area:
     for row, point in enumerate(points, HISTORY_ROW + 1):
         for number, value in enumerate(point.tolist()):
             if value == value:  # noqa: PLR0124 (no cell where the grasp has no fitness)
-                pen.write(row, left + number, round(value, DRAWN_DIGITS), Style.RATIO)
+                pen.write(row, left + number, round(value, DRAWN_DIGITS), Style.DRAWN)
     return Area(HISTORY, HISTORY_ROW + 1, left, 2 * MAX_STEPS, len(header))
 
 
@@ -156,7 +155,7 @@ def _level(pen: Pen, label: str, values: Sequence[float | None], left: int, resu
     header = (label, *(title for _, title, _, _ in CRITERIA))
     pen.row(HISTORY_ROW, left, header, Style.HEADER)
     for offset, generation in enumerate((1, max(10, result.state.generation)), 1):
-        pen.row(HISTORY_ROW + offset, left, (generation, *drawn), Style.RATIO)
+        pen.row(HISTORY_ROW + offset, left, (generation, *drawn), Style.DRAWN)
     return Area(HISTORY, HISTORY_ROW + 1, left, 2, len(header))
 
 

@@ -20,8 +20,10 @@ from grasp_xl.workbook.layout import CALC, GA, GRASP, OPTION_SPACE, RUN_LOG, Are
 from grasp_xl.workbook.macros import BUTTONS
 from grasp_xl.workbook.package import Package
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK
+from grasp_xl.workbook.proved import LEGENDS
 from grasp_xl.workbook.reading import find_sheet
 from grasp_xl.workbook.reading_polygon import corner_cells
+from grasp_xl.workbook.styles import Style
 from grasp_xl.workbook.table import DASH, NO, YES
 from grasp_xl.workbook.written import WrittenBook, WrittenCell
 
@@ -198,16 +200,17 @@ class Comparison:
         if our_formula:
             kept = _same(value, ours.value)
         else:
-            kept = our_name in HELPER_SHEETS or self._same_value(value, ours.value)
+            kept = our_name in HELPER_SHEETS or self._same_value(value, ours)
         return "" if kept else CHANGED
 
     def _formula(self, cell: Area) -> str:
         text = self._source.grid(cell.sheet, formulas=True).at(cell.row, cell.column)
         return same_formula(str(getattr(text, "text", text) or ""))
 
-    def _same_value(self, value: Value, our_value: Value) -> bool:
+    def _same_value(self, value: Value, ours: WrittenCell) -> bool:
         """Compare values; where inputs changed, a result may be another one."""
-        if not self._written.same_inputs and _is_result(value) and _is_result(our_value):
+        our_value, drawn = ours.value, ours.style is Style.DRAWN  # which may be empty
+        if not self._written.same_inputs and _is_result(value) and (drawn or _is_result(our_value)):
             return True
         if isinstance(value, str) and isinstance(our_value, str):
             return self._same_text(normal(value), normal(our_value))
@@ -230,7 +233,7 @@ def _without_digits(text: str) -> str:
 
 
 def _is_result(value: Value) -> bool:
-    return isinstance(value, int | float) or value in (DASH, YES, NO)
+    return isinstance(value, int | float) or value in (DASH, YES, NO, *LEGENDS)
 
 
 def _same(value: Value, our_value: Value) -> bool:

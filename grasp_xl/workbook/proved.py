@@ -13,6 +13,9 @@ from grasp_xl.workbook.table import CRITERIA
 
 BEST_KNOWN = "Best known"
 NOT_PROVED = "Not proved"
+PROVED_BOUND = "Proved bound"
+LEGENDS = (layout.PROVED.label, BEST_KNOWN, NOT_PROVED, PROVED_BOUND)
+"""What the lines of the exact search are called in the charts."""
 ALL_GRASPS = "all grasps"
 NO_PROOF = (
     "No proof was made. grasp-xl run makes one unless --no-prove is given;",

@@ -106,6 +106,7 @@ class Style(Enum):
     MM = "mm", {**_NUMBER, "num_format": '#,##0.00" mm"'}
     FINE_MM = "fine_mm", {**_NUMBER, "num_format": '0.0000" mm"'}
     RATIO = "ratio", {**_NUMBER, "num_format": "0.0000"}
+    DRAWN = "drawn", {**_NUMBER, "num_format": "0.0000"}
     PERCENT = "percent", {**_NUMBER, "num_format": "0.00##%"}
     SHARE = "share", {**_NUMBER, "num_format": "0.00"}
     RESULT = "result", {**_NUMBER, "bold": True, "num_format": "#,##0.000"}
