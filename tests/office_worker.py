@@ -16,6 +16,7 @@ from pathlib import Path
 
 try:
     import uno
+    from com.sun.star.awt import Rectangle
     from com.sun.star.beans import PropertyValue
     from com.sun.star.connection import NoConnectException
     from com.sun.star.lang import DisposedException, Locale
@@ -345,17 +346,12 @@ class Live(Session):
         return numbers(cursor.RangeAddress)
 
     def cells(self, place, formulas):
-        """Return values of cells, formulas if wanted, and where dates and truths are."""
+        """Return values of cells, and formulas, or else where dates and truths are."""
         area = self._area(place)
-        return {
-            "values": self._values(area.Spreadsheet, area),
-            "formulas": area.getFormulaArray() if formulas else None,
-            "kinds": [
-                (kind, numbers(where))
-                for kind in (DATE, LOGICAL)
-                for where in self._formatted(area, kind)
-            ],
-        }
+        values = self._values(area.Spreadsheet, area)
+        if formulas:
+            return {"values": values, "formulas": area.getFormulaArray(), "kinds": []}
+        return {"values": values, "formulas": None, "kinds": list(self._kinds(area))}
 
     def fill(self, place, constants, formulas, kinds):
         """Write a block: constants, and formulas where there are any."""
@@ -370,6 +366,23 @@ class Live(Session):
             cell = area.getCellByPosition(column, row)
             if self._format(cell).FormatString == "General":
                 cell.NumberFormat = self._book.NumberFormats.getStandardFormat(kind, Locale())
+
+    def add_own(self, sheet):
+        """Add what a designer adds: a sheet with a formula and a chart, a note on another."""
+        self._book.Sheets.insertNewByName(sheet, 0)
+        own = self._book.Sheets.getByName(sheet)
+        own.getCellByPosition(0, 0).setFormula("=$GA.B4+1")
+        cells = own.getCellRangeByName("A1:A3").RangeAddress
+        own.Charts.addNewByName("Mine", Rectangle(1000, 1000, 8000, 6000), (cells,), False, False)  # noqa: FBT003 (UNO has no names)
+        noted = self._book.Sheets.getByName("GA")
+        noted.Annotations.insertNew(noted.getCellByPosition(0, 60).CellAddress, "my note")
+
+    def read_own(self, sheet):
+        """Return what is there of it, and how many charts and notes the other sheets have."""
+        own = self._book.Sheets.getByName(sheet)
+        notes = [note.String for note in self._book.Sheets.getByName("GA").Annotations]
+        charts = {each.Name: each.Charts.Count for each in self._book.Sheets}
+        return own.getCellByPosition(0, 0).Formula, sorted(notes), charts
 
     def replace_module(self, library, module, source):
         """Give a macro module another source."""
@@ -493,6 +506,13 @@ class Live(Session):
                 meant = constants[row][column]
                 if meant is not None and value != meant:
                     put_constant(area.getCellByPosition(column, row), meant)
+
+    def _kinds(self, area):
+        """Iterate over the parts of an area that hold dates or truths: their kind and place."""
+        for cells in area.getUniqueCellFormatRanges():  # takes longer than all values
+            for kind in (DATE, LOGICAL):
+                if self._format(cells).Type & kind:
+                    yield from ((kind, numbers(where)) for where in cells.getRangeAddresses())
 
     def _formatted(self, area, kind):
         """Iterate over the parts of an area whose number format is of a kind."""

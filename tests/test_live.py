@@ -116,13 +116,20 @@ def differences(one: Path, other: Path) -> list[str]:
 
 
 def test_a_run_equals_the_command_lines_cell_for_cell(
-    book: xw.Book, office: Office, made: Path, tmp_path: Path, log: Path
+    office: Office, made: Path, tmp_path: Path, log: Path
 ) -> None:
-    """Values, formulas, table sizes, names; the designer's own things stay, on every sheet."""
+    """Values, formulas, table sizes, names; own things stay, and nothing is read from disk."""
+    office.open(made, unsaved=True)
+    book = calc_engine.book_of(office)
+    typed(book, "Generations", GENERATIONS)
     own = book.sheets["Run Log"].range("H2:I3")
     own.formula = [["mine", "=1+1"], [3, "=GA!$B$4"]]
+    office.do("add_own", sheet="Mine")
+    theirs = office.do("read_own", sheet="Mine")
     worker.work("run")
+    assert office.do("read_own", sheet="Mine") == theirs
     assert alerts(log) == []
+    assert book.sheets["Run Log"].range("B4").value == book.name
     office.save(tmp_path / "live.xlsx")
     told = ["--generations", str(GENERATIONS), "--quiet"]
     assert main(["run", str(made), "-o", str(tmp_path / "told.xlsm"), *told]) == 0
@@ -141,6 +148,7 @@ def test_a_run_equals_the_command_lines_cell_for_cell(
     look = book.sheets["Fitness Table"].range("B4"), book.sheets["Fitness Table"].range("B7")
     assert look[0].number_format == look[1].number_format
     assert look[0].color == look[1].color
+    office.do("close")
 
 
 def test_a_second_run_and_a_proof_replace_the_first(
@@ -291,17 +299,6 @@ def test_check_tells_what_any_grasp_can_reach(book: xw.Book, log: Path) -> None:
 def test_stop_without_a_search_says_so(log: Path) -> None:
     live.stop()
     assert alerts(log) == [live.IDLE]
-
-
-def test_an_unsaved_workbook_is_filled(office: Office, made: Path, log: Path) -> None:
-    """Nothing is read from disk: the same holds for one whose name is an address."""
-    office.open(made, unsaved=True)
-    book = calc_engine.book_of(office)
-    typed(book, "Generations", 50)
-    worker.work("run")
-    assert alerts(log) == []
-    assert book.sheets["Run Log"].range("B4").value == book.name
-    office.do("close")
 
 
 # --- the buttons themselves ---
