@@ -31,7 +31,7 @@ class Problem:
 
     def __str__(self) -> str:
         sentence = f"{self.where}: found {self.found}, expected {self.expected}"
-        return f"{sentence}; {self.hint}." if self.hint else f"{sentence}."
+        return f"{sentence}; {self.hint.removesuffix('.')}." if self.hint else f"{sentence}."
 
 
 class GraspError(Exception):

@@ -18,9 +18,11 @@ from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book
 from grasp_xl.workbook.inputs import changed_inputs, trade_off_rows
 from grasp_xl.workbook.losses import Written, losses, sheet_gone
+from grasp_xl.workbook.macros import MACRO_SUFFIX
 from grasp_xl.workbook.picker import NO_PICKS
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.reading import open_source
+from grasp_xl.workbook.reading_ga import find_block, find_ga_sheet
 from grasp_xl.workbook.reading_run import (
     SavedRun,
     largest_listed,
@@ -47,9 +49,12 @@ def replaced_in_place(output: Output, previous: Book) -> list[Problem]:
     OutputError
         Naming everything that would be lost, or the sheet without which that cannot be told.
     """
-    if previous.package is None or previous.is_untouched:
+    target = output.path
+    keeps_macros = target.suffix.lower() == MACRO_SUFFIX
+    macros = ["the buttons and macros"] if previous.macros and not keeps_macros else []
+    if previous.package is None or (previous.is_untouched and not macros):
         return []
-    target, written = output.path, as_written(previous)
+    written = as_written(previous)
     gone = sheet_gone(previous.source, written)
     if gone and not output.force:
         raise OutputError(
@@ -59,7 +64,7 @@ def replaced_in_place(output: Output, previous: Book) -> list[Problem]:
             hint=f"Give that sheet the name {gone!r} again, write to another file with -o, "
             "or add --force to lose what a run does not write",
         )
-    lost = [] if gone else losses(previous.package, previous.source, written)
+    lost = [] if gone else [*losses(previous.package, previous.source, written), *macros]
     if lost and not output.force:
         raise OutputError(
             f"{target} holds what the new workbook would not: {'; '.join(lost)}. "
@@ -109,7 +114,7 @@ def _lost(target: Path, lost: list[str]) -> list[Problem]:
 
 def as_written(book: Book) -> Written:
     """Write a workbook again as it was, with its own cards and results, to know what is ours."""
-    if layout.USER_BLOCK.name not in book.source.names:  # an export
+    if find_ga_sheet(book.source) is None:  # an export
         return Written(export_workbook(book.space), same_inputs=False)
     task = _task_of_its_run(book)
     same_inputs = task is not None
@@ -140,11 +145,18 @@ def _task_of_its_run(book: Book) -> Task | None:
     return None
 
 
+def cards(book: Book) -> int:
+    """Return the number of child cards; the names of some may be gone."""
+    found = (re.fullmatch(r"Child(\d+)", name) for name in book.source.names)
+    return max((int(each[1]) for each in found if each), default=0)
+
+
 def _of_its_sizes(book: Book) -> Book:
     """Return a book with the sizes of its cards and lists, whatever sizes it asks for now."""
     names = book.source.names
-    children = sum(re.fullmatch(r"Child\d+", name) is not None for name in names)
-    slots = names[layout.USER_BLOCK.name].columns - 1
+    children = cards(book)
+    block, corners = find_block(book.source, layout.USER_BLOCK), names.get(layout.IDEAL_POLYGON)
+    slots = block.columns - 1 if block else book.space.gene_slots
     kinds = (
         replace(
             _with_places(kind, largest_listed(book.source, kind.name)),
@@ -158,7 +170,9 @@ def _of_its_sizes(book: Book) -> Book:
         space=replace(
             book.space,
             kinds=tuple(kinds),
-            approximation_polygon_mm=_any_polygon(names[layout.IDEAL_POLYGON].rows),
+            approximation_polygon_mm=_any_polygon(
+                corners.rows if corners else len(book.space.approximation_polygon_mm)
+            ),
         ),
         parameters=replace(book.parameters, children=max(2, children)),
         user_chromosome=None,

@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
+from decimal import Decimal
 from functools import cached_property
 from typing import Any
 
@@ -144,8 +145,12 @@ class OpenCells:
                 )
             area = Area(sheet, used.row - 1, used.column - 1, height, width)
             values = used.options(ndim=2, err_to_str=True).value
+            has_currency = any(isinstance(value, Decimal) for row in values for value in row)
+            texts = _rows(used.formula) if formulas or has_currency else []
+            if has_currency:
+                values = _with_all_digits(values, texts)
             if formulas:
-                values = _formulas_alone(_rows(used.formula), values)
+                values = _formulas_alone(texts, values)
             self._blocks[sheet, formulas] = area, values
         return self._blocks[sheet, formulas]
 
@@ -155,6 +160,27 @@ def _rows(block: Any) -> list[list[Any]]:  # noqa: ANN401 (what Excel gives)
     if not isinstance(block, list | tuple):
         return [[block]]
     return [list(row) for row in block]
+
+
+def _with_all_digits(values: list[list[Value]], texts: list[list[Any]]) -> list[list[Value]]:
+    """Return numbers for what Excel on Windows gives of cells with a currency format.
+
+    It gives a decimal with four digits; the text of a constant has all of them.
+    """
+    return [
+        [
+            _number(value, text) if isinstance(value, Decimal) else value
+            for value, text in zip(*row, strict=True)
+        ]
+        for row in zip(values, texts, strict=True)
+    ]
+
+
+def _number(value: Decimal, text: Any) -> float:  # noqa: ANN401 (what Excel gives)
+    try:
+        return float(text)
+    except (TypeError, ValueError):  # a formula
+        return float(value)
 
 
 def _formulas_alone(texts: list[list[Any]], values: list[list[Value]]) -> list[list[Value]]:
@@ -201,7 +227,9 @@ def apply(book: Book, patch: Patch, untouched: Callable[[Area], bool]) -> None:
 
 
 def _reason(error: Exception) -> str:
-    return (str(error) or type(error).__name__).splitlines()[0][:200]
+    """Return what Excel says; of an error of Windows, which has it inside, that alone."""
+    told = error.args[2][2] if len(error.args) > 2 and isinstance(error.args[2], tuple) else error
+    return (str(told) or type(error).__name__).splitlines()[0][:200]
 
 
 def _apply(book: Book, patch: Patch, untouched: Callable[[Area], bool]) -> None:
@@ -219,15 +247,17 @@ def _apply(book: Book, patch: Patch, untouched: Callable[[Area], bool]) -> None:
 def _apply_to_sheet(sheet: Any, patch: SheetPatch, untouched: Callable[[Area], bool]) -> None:  # noqa: ANN401 (an xlwings sheet)
     for area in patch.unmerged:
         _range(sheet, area).unmerge()
+    tables = {table.name: table for table in sheet.tables}
     for name, area in patch.tables.items():
-        sheet.tables[name].resize(_range(sheet, area))
+        if name in tables:  # a person may have turned it into plain cells
+            tables[name].resize(_range(sheet, area))
+    for (name, value), areas in patch.looks().items():
+        for area in areas:
+            FORMATS[name](_range(sheet, area), value)
     for area in patch.blocks(lambda place: untouched(Area(patch.sheet, *place))):
         _range(sheet, area).formula = [
             [_entered(patch.cell(row, column)) for column in _columns(area)] for row in _of(area)
         ]
-    for (name, value), areas in patch.looks().items():
-        for area in areas:
-            FORMATS[name](_range(sheet, area), value)
     for area in patch.merged:
         _range(sheet, area).merge()
     if patch.before.printed != patch.after.printed:

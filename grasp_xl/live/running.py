@@ -48,9 +48,19 @@ class Running:
 
     @classmethod
     def on(cls, book: Any) -> Running:  # noqa: ANN401 (an xlwings book)
-        """Return the mark that belongs to an open workbook."""
-        key = hashlib.sha256(f"{book.app.pid} {book.name}".encode()).hexdigest()[:16]
-        return cls(user_cache_path("grasp_xl") / "running" / key)
+        """Return the mark that belongs to an open workbook.
+
+        That of a search which began before the workbook got its present name is its own, too: it
+        has the name of no open workbook of this Excel.
+        """
+        folder, excel = user_cache_path("grasp_xl") / "running", str(book.app.pid)
+        own = cls(folder / f"{excel}-{_digest(book.name)}")
+        if not own.is_alive:
+            named = {f"{excel}-{_digest(other.name)}" for other in book.app.books}
+            for mark in folder.glob(f"{excel}-*"):
+                if mark.name not in named and mark.suffix == "" and cls(mark).is_alive:
+                    return cls(mark)
+        return own
 
     @property
     def wish(self) -> Path:
@@ -67,6 +77,11 @@ class Running:
     def ask_to_stop(self) -> None:
         """Want the search to end."""
         self.wish.touch()
+
+    def forget_wish(self, ask: Interrupt) -> None:
+        """Take back the wish to end: it was fulfilled."""
+        self.wish.unlink(missing_ok=True)
+        ask.asked = False
 
     @contextmanager
     def marked(self) -> Iterator[Interrupt]:
@@ -103,3 +118,7 @@ class Running:
             watcher.join()
             self.mark.unlink(missing_ok=True)
             self.wish.unlink(missing_ok=True)
+
+
+def _digest(name: str) -> str:
+    return hashlib.sha256(name.encode()).hexdigest()[:16]

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from grasp_xl.commands import sentences
 from grasp_xl.commands.check import check_book
-from grasp_xl.commands.keeping import as_written, held_run, kept_trade_offs
-from grasp_xl.commands.output import now, written_book
+from grasp_xl.commands.keeping import as_written, cards, held_run, kept_trade_offs
+from grasp_xl.commands.output import not_begun, now, written_book
 from grasp_xl.commands.preparing import prepare
 from grasp_xl.commands.run import Ran, get_ready
 from grasp_xl.commands.solve import prove_run, solve_book
@@ -27,11 +27,12 @@ from grasp_xl.workbook.book import book_of
 from grasp_xl.workbook.cells import Source
 from grasp_xl.workbook.inputs import changed_inputs, input_rows
 from grasp_xl.workbook.layout import Area
-from grasp_xl.workbook.losses import MAX_NAMED, Comparison
+from grasp_xl.workbook.losses import MAX_NAMED, Comparison, sheet_gone
 from grasp_xl.workbook.patch import Patch, as_seen
 from grasp_xl.workbook.proved import Proved
-from grasp_xl.workbook.reading_ga import find_ga_sheet
+from grasp_xl.workbook.reading_ga import find_block, find_ga_sheet
 
+RESULTS_WAIT = "The results wait for that, ten minutes at most."
 AS_THE_WORKBOOK_SAYS = Parameters()
 RUN_PROOF_SECONDS = 10.0
 """Longest proof after a run, as on the command line."""
@@ -39,6 +40,8 @@ PROVE_SECONDS = 60.0
 """Longest search of the button ``Prove``."""
 SHOWN_SECONDS = 5.0
 """How long the status bar shows the outcome."""
+WAIT_SECONDS, AGAIN_SECONDS = 600.0, 3.0
+"""How long results wait until they can be written, and how often that is tried."""
 
 
 def work(command: str) -> None:
@@ -103,7 +106,7 @@ def run(book: Book, ask: Interrupt) -> str:
             interrupt=ask,
             on_progress=_bound(status),
         )
-    _fill(book, ready.task, result, solved.shown if solved else None)
+    _fill_when_possible(book, ask, ready.task, result, solved.shown if solved else None)
     ran = Ran(ready.task, result, solved, time.perf_counter() - clock)
     return " ".join(sentences.run(ran))
 
@@ -113,13 +116,13 @@ def prove(book: Book, ask: Interrupt) -> str:
     status = StatusBar(book)
     _say_if_it_compiles(status, "exact")
     said = _read(book)
+    _refuse_unfit(said, prepare(said, AS_THE_WORKBOOK_SAYS, stop=ask.is_asked))
     settings = ExactSettings(PROVE_SECONDS)
     solved = solve_book(said, AS_THE_WORKBOOK_SAYS, settings, ask, on_progress=_bound(status))
     if solved.obstacle:
         raise solved.obstacle
-    _refuse_unfit(said, solved.task)
     result, _ = held_run(said, solved.task)
-    _fill(book, solved.task, result, solved.shown)
+    _fill_when_possible(book, ask, solved.task, result, solved.shown)
     return sentences.proof(solved)
 
 
@@ -155,20 +158,22 @@ def _bound(status: StatusBar) -> Callable[[float, float | None], None]:
 
 
 def _refuse_unfit(said: Said, task: Task) -> None:
-    """Refuse inputs for which the workbook has too many or too few cards or genes, or trade-offs.
+    """Refuse, before any search, what the sheets could not show in the end.
+
+    That is inputs for which the workbook has too many or too few cards or genes, trade-offs of
+    other inputs, a sheet that is gone, or something in the way of what each result has.
 
     Raises
     ------
-    InputError
+    InputError, OutputError
     """
-    names = said.source.names
-    cards = sum(f"Child{number}" in names for number in range(1, layout.MAX_CHILDREN + 1))
-    slots = names[layout.USER_BLOCK.name].columns - 1
+    block = find_block(said.source, layout.USER_BLOCK)
+    slots = block.columns - 1 if block else task.space.gene_slots
     hint = "make a workbook of that size with grasp-xl run BOOK -o OTHER.xlsm, or undo the change"
     problems = [
         Problem(where, f"{found} {what}", f"{has}, for which this workbook has room", hint)
         for where, found, what, has in (
-            (_where(said, "Children"), task.settings.children, "children", cards),
+            (_where(said, "Children"), task.settings.children, "children", cards(said)),
             (_where(said, "SuctionMax"), task.space.gene_slots, "index genes a kind", slots),
         )
         if found != has
@@ -178,11 +183,40 @@ def _refuse_unfit(said: Said, task: Task) -> None:
     problems += [replace(problem, hint=hint) for problem in stale]
     if problems:
         raise InputError(problems)
+    _patch(said, task, not_begun(task), None)
 
 
 def _where(said: Said, name: str) -> str:
     cell = said.source.names.get(name)
     return cell.where if cell else name
+
+
+def _fill_when_possible(
+    book: Book, ask: Interrupt, task: Task, result: Result, proved: Proved | None
+) -> None:
+    """Fill the sheets; where something is in the way, tell it once, and wait until it is gone.
+
+    Raises
+    ------
+    InputError, OutputError
+        If it stays there, or the person presses Stop.
+    """
+    status, patience = StatusBar(book), time.monotonic() + WAIT_SECONDS
+    Running.on(book).forget_wish(ask)  # that was for the search
+    told = False
+    while True:
+        try:
+            _fill(book, task, result, proved)
+        except OutputError as error:
+            if ask.asked or time.monotonic() > patience:
+                raise
+            if not told:
+                tell(book, f"{error.message}\n{error.hint}. {RESULTS_WAIT}", is_error=True)
+            told = True
+            status.tell("the results wait to be written; Stop gives them up")
+            time.sleep(AGAIN_SECONDS)
+        else:
+            return
 
 
 def _fill(book: Book, task: Task, result: Result, proved: Proved | None) -> None:
@@ -193,7 +227,7 @@ def _fill(book: Book, task: Task, result: Result, proved: Proved | None) -> None
     InputError
         If the inputs are others now.
     OutputError
-        If something that is not ours is in the way, or Excel does not take the result.
+        If something is in the way, or Excel does not take the result.
     """
     said = _read(book)
     changed = changed_inputs(prepare(said, AS_THE_WORKBOOK_SAYS), input_rows(task))
@@ -202,10 +236,31 @@ def _fill(book: Book, task: Task, result: Result, proved: Proved | None) -> None
         expected = "those that the search began with"
         hint = "nothing was written; press the button again"
         raise InputError([Problem(book.name, found, expected, hint)])
+    patch, touched = _patch(said, task, result, proved)
+    apply(book, patch, lambda cell: cell not in touched)
+
+
+def _patch(
+    said: Said, task: Task, result: Result, proved: Proved | None
+) -> tuple[Patch, set[Area]]:
+    """Return what changes in the workbook, and the cells that are not as we wrote them.
+
+    Raises
+    ------
+    OutputError
+        If a sheet is gone, or something that is not ours is in the way.
+    """
     before = as_written(said)
+    gone = sheet_gone(said.source, before)
+    if gone:
+        raise OutputError(
+            f"The workbook has no sheet {gone!r} any more. Nothing was written.",
+            where=said.source.name,
+            hint=f"Give that sheet the name {gone!r} again, or run grasp-xl on the saved workbook",
+        )
     after = written_book(task, result, said, now(), proved=proved, trade_offs=said.trade_offs)
-    patch = Patch(as_seen(said.source, before.book, after), after)
     comparison = Comparison(said.source, before)
+    patch = Patch(as_seen(said.source, before.book, after, comparison.inputs), after)
     touched = {
         cell for sheet in patch.sheets for _, cell in comparison.changes(sheet.sheet, sheet.sheet)
     }
@@ -223,4 +278,4 @@ def _fill(book: Book, task: Task, result: Result, proved: Proved | None) -> None
             where=in_the_way[0],
             hint="Move it to another sheet, or undo the change, and try again",
         )
-    apply(book, patch, lambda cell: cell not in touched)
+    return patch, touched

@@ -26,14 +26,14 @@ LOOKS = (
 BENCHMARK = "Benchmark"
 
 
-PROOF_LABEL_COLUMNS, PROOF_VALUE_COLUMNS = 3, 4
-"""How wide what is proved stands below the table."""
+PROOF_COLUMN = len(COLUMNS) + 1
+"""First of the two columns of what is proved: beside the table, so that its place is always one."""
 
 
 def write_fitness_table(pen: Pen, result: Result, proved: Proved | None) -> None:
     """Write the fitness of the benchmark, of the fittest at the thesis's generations, of the best.
 
-    Below it what the exact search says, where somebody asked it.
+    Beside it what the exact search says, where somebody asked it.
     """
     write_result_title(pen, "FITNESS TABLE")
     pen.row(2, 0, COLUMNS, Style.HEADER)
@@ -48,16 +48,15 @@ def write_fitness_table(pen: Pen, result: Result, proved: Proved | None) -> None
     for row, (label, grasp) in enumerate(rows, 3):
         pen.write(row, 0, label, Style.LABEL)
         _row(pen, row, grasp, with_fitness=grasp.feasible or label == BENCHMARK)
-    behind = 3 + len(rows)
-    if proved:
-        behind = _write_proof(pen, behind + 1, result, proved)
+    lines = _write_proof(pen, result, proved) if proved else 0
     pen.sheet.freeze_panes(3, 1)
-    pen.widths(0, 17, *[14] * (len(COLUMNS) - 1))
-    pen.print_pages(Area(FITNESS_TABLE, 0, 0, behind, len(COLUMNS)))
+    pen.widths(0, 17, *[14] * (len(COLUMNS) - 1), 3, 34, 28)
+    columns = PROOF_COLUMN + 2 if proved else len(COLUMNS)
+    pen.print_pages(Area(FITNESS_TABLE, 0, 0, 3 + max(len(rows), lines), columns))
 
 
-def _write_proof(pen: Pen, row: int, result: Result, proved: Proved) -> int:
-    """Write what is proved, a line each, and return the row behind the last."""
+def _write_proof(pen: Pen, result: Result, proved: Proved) -> int:
+    """Write what is proved, a line each, and return how many they are."""
     proof, best = proved.proof, result.best
     value = proof.designs[0].value if proof.designs else None
     above = None
@@ -73,12 +72,11 @@ def _write_proof(pen: Pen, row: int, result: Result, proved: Proved) -> int:
         ("Best of the genetic run above it", above, Style.PERCENT),
         ("Time of the exact search (s)", round(proof.seconds, 3), Style.TORQUE),
     ]
-    pen.span(Area(FITNESS_TABLE, row, 0, 1, len(COLUMNS)), "Exact search", Style.HEADING)
-    for here, (label, told, style) in enumerate(lines, row + 1):
-        pen.span(Area(FITNESS_TABLE, here, 0, 1, PROOF_LABEL_COLUMNS), label, Style.LABEL)
-        area = Area(FITNESS_TABLE, here, PROOF_LABEL_COLUMNS, 1, PROOF_VALUE_COLUMNS)
-        pen.span(area, DASH if told is None else told, style)
-    return row + 1 + len(lines)
+    pen.row(2, PROOF_COLUMN, ("Exact search", None), Style.HEADING)
+    for row, (label, told, style) in enumerate(lines, 3):
+        pen.write(row, PROOF_COLUMN, label, Style.LABEL)
+        pen.write(row, PROOF_COLUMN + 1, DASH if told is None else told, style)
+    return len(lines)
 
 
 def _row(pen: Pen, row: int, grasp: Grasp, *, with_fitness: bool) -> None:

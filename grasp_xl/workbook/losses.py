@@ -16,9 +16,10 @@ from dataclasses import dataclass, replace
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank, normal, same_formula
 from grasp_xl.workbook.extras import AREA_NAMES, VALIDATIONS, Extra, not_among, read_extras
-from grasp_xl.workbook.layout import CALC, GA, GRASP, OPTION_SPACE, RUN_LOG, Area
+from grasp_xl.workbook.layout import CALC, FITNESS_TABLE, GA, GRASP, OPTION_SPACE, RUN_LOG, Area
 from grasp_xl.workbook.macros import BUTTONS
 from grasp_xl.workbook.package import Package
+from grasp_xl.workbook.patch import FREE_COLUMNS
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK
 from grasp_xl.workbook.proved import LEGENDS
 from grasp_xl.workbook.reading import find_sheet
@@ -34,8 +35,10 @@ OBJECTS = {
     "pictures": ("/media/", b""),
     "shapes or text boxes": (
         "/drawings/drawing",
-        b'<xdr:sp(?=[ />])(?![^>]*macro="[^"]*(%s)")' % "|".join(BUTTONS.values()).encode(),
-    ),  # Excel keeps a second picture of each button there
+        b'<xdr:sp(?=[ />])(?![^>]*macro="[^"]*(?:%s)")'
+        b'(?![^>]*>[^<]*<xdr:nvSpPr>[^<]*<xdr:cNvPr[^>]* descr="(?:%s)")'
+        % ("|".join(BUTTONS.values()).encode(), "|".join(BUTTONS).encode()),
+    ),  # Excel and LibreOffice keep a second picture of each button there
     "threaded comments": ("/threadedComments/", b"<threadedComment "),
     "macro modules": ("/vbaProject.bin", b""),
     "pivot tables": ("/pivotTables/pivotTable", b""),
@@ -60,8 +63,8 @@ INPUT_NAMES = (
 HELPER_SHEETS = (GRASP, CALC)
 """What is no formula there is a copy of inputs, for pictures and cards."""
 
-LOG_COLUMNS = 2
-"""The run log is ours in these columns, and each run says there what it likes."""
+PICKED_LISTS = (layout.VALID_DESIGNS, layout.TRADE_OFFS)
+"""Sheets with formulas on a list, which is as long as its run made it."""
 
 CELLS, FORMULAS, CHANGED = "cells", "formulas in", "changed cells"
 ACCURACY = 1e-9
@@ -172,30 +175,39 @@ class Comparison:
         if layout.APPROXIMATION_POLYGON in source.names:
             corners = corner_cells(source, source.names[layout.APPROXIMATION_POLYGON])
             areas.append(replace(corners, column=corners.column - 1, columns=1 + corners.columns))
-        self._inputs = {cell for area in areas for row in cells_of(area) for cell in row}
+        self.inputs = {cell for area in areas for row in cells_of(area) for cell in row}
 
     def changes(self, sheet: str, our_name: str) -> Iterator[tuple[str, Area]]:
         """Yield what would be lost of a sheet, and the cell where it stands."""
         ours = self._written.book.sheets[our_name].cells
         for row, column in sorted(filled_cells(self._source, sheet)):
-            if our_name == RUN_LOG and column < LOG_COLUMNS:
+            if self._is_free(our_name, column):
                 continue
             cell = Area(sheet, row, column)
             if (row, column) in ours:
                 what = self._change(cell, our_name, ours[row, column])
             else:
-                what = "" if cell in self._inputs else CELLS
+                what = "" if cell in self.inputs else CELLS
             if what:
                 yield what, cell
+
+    def _is_free(self, our_name: str, column: int) -> bool:
+        """Tell whether a run says in a column what it likes: in the log, and of other inputs."""
+        if our_name == FITNESS_TABLE and self._written.same_inputs:
+            return False
+        return column < FREE_COLUMNS.get(our_name, 0)
 
     def _change(self, cell: Area, our_name: str, ours: WrittenCell) -> str:
         """Return what is lost of a cell where we have one, too; nothing if it is empty."""
         formula, our_formula = self._formula(cell), same_formula(ours.formula)
-        if cell in self._source.worked_out or (cell in self._inputs and not formula):
+        if cell in self._source.worked_out or (cell in self.inputs and not formula):
             return ""
         if formula:
-            same = our_formula == formula or (cell in self._inputs and _alike(formula, our_formula))
-            return "" if same else FORMULAS
+            lists_changed = our_name in PICKED_LISTS and not self._written.same_inputs
+            sizes_only = cell in self.inputs or lists_changed
+            same = our_formula == formula or (sizes_only and _alike(formula, our_formula))
+            of_gone_sheet = "#REF!" in formula and our_formula
+            return "" if same or of_gone_sheet else FORMULAS
         value = self._source.value(cell)
         if our_formula:
             kept = _same(value, ours.value)

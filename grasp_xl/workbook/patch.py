@@ -7,17 +7,20 @@ different is changed, in blocks, so that all else, formulas and a designer's own
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Container, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
 from grasp_xl.workbook.cells import Source, same_formula
-from grasp_xl.workbook.layout import Area
+from grasp_xl.workbook.layout import FITNESS_TABLE, RUN_LOG, Area
 from grasp_xl.workbook.styles import UNFORMATTED, formats_of
 from grasp_xl.workbook.written import WrittenBook, WrittenCell, WrittenSheet
 
 Place = tuple[int, int]
 """Row and column of a cell."""
+
+FREE_COLUMNS = {RUN_LOG: 2, FITNESS_TABLE: 10}
+"""Columns that are ours on sheets whose rows differ from run to run, whatever stands there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,10 +70,9 @@ class SheetPatch:
         old, new = self.before.cells, self.after.cells
         places: dict[tuple[str, Any], set[Place]] = defaultdict(set)
         for place in old.keys() | new.keys():
-            was = formats_of(old[place].style) if place in old else UNFORMATTED
-            shall = formats_of(new[place].style) if place in new else UNFORMATTED
+            was, shall = _formats(old.get(place)), _formats(new.get(place))
             for name, value in shall.items():
-                if was[name] != value:
+                if was.get(name, value) != value or name not in was:
                     places[name, value].add(place)
         return {what: [*_blocks(self.sheet, cells)] for what, cells in places.items()}
 
@@ -129,7 +131,9 @@ class Patch:
         return Patch(self.after, self.before)
 
 
-def as_seen(source: Source, written: WrittenBook, after: WrittenBook) -> WrittenBook:
+def as_seen(
+    source: Source, written: WrittenBook, after: WrittenBook, inputs: Container[Area]
+) -> WrittenBook:
     """Return a workbook as it was written, but with what stands in its cells now.
 
     Parameters
@@ -137,29 +141,49 @@ def as_seen(source: Source, written: WrittenBook, after: WrittenBook) -> Written
     source : Source
         The open workbook.
     written : WrittenBook
-        What we would write into it as it is: gives looks, tables and names.
+        What we would write into it as it is: gives looks and tables.
     after : WrittenBook
         What shall be written: cells of it that are new were seen, too.
+    inputs : container of Area
+        Cells that a person types into: a formula there is only a way to say its value.
     """
     sheets = {
-        name: replace(sheet, cells=_seen(source, name, sheet, after.sheets[name]))
+        name: replace(sheet, cells=_seen(source, name, sheet, after.sheets[name], inputs))
         for name, sheet in written.sheets.items()
         if name in source.sheets and name in after.sheets
     }
-    return replace(written, sheets=sheets)
+    names = {name: source.names[name] for name in written.names if name in source.names}
+    return replace(written, sheets=sheets, names=names)
 
 
 def _seen(
-    source: Source, name: str, sheet: WrittenSheet, after: WrittenSheet
+    source: Source,
+    name: str,
+    sheet: WrittenSheet,
+    after: WrittenSheet,
+    inputs: Container[Area],
 ) -> dict[Place, WrittenCell]:
     values, formulas = source.grid(name), source.grid(name, formulas=True)
+    ours: dict[Place, WrittenCell | None] = {**after.cells, **sheet.cells}
+    free = FREE_COLUMNS.get(name, 0)
+    for row, shown in values.rows.items():
+        ours.update({(row, column): None for column in range(min(free, len(shown)))})
     cells = {}
-    for place, ours in {**after.cells, **sheet.cells}.items():
+    for place, cell in ours.items():
         value, formula = values.at(*place), formulas.at(*place)
         if place in sheet.cells or value is not None or formula is not None:
-            text = str(formula).removeprefix("=") if formula is not None else None
-            cells[place] = WrittenCell(value, ours.style, text)  # type: ignore[arg-type]
+            ours_too = cell is not None and cell.formula is not None
+            counts = ours_too or Area(name, *place) not in inputs
+            text = str(formula).removeprefix("=") if formula is not None and counts else None
+            cells[place] = WrittenCell(value, cell.style if cell else None, text)  # type: ignore[arg-type]
     return cells
+
+
+def _formats(cell: WrittenCell | None) -> dict[str, Any]:
+    """Return the format properties of a cell, as far as they are known."""
+    if cell is None:
+        return UNFORMATTED
+    return formats_of(cell.style) if cell.style else {}
 
 
 def _content(cell: WrittenCell | None) -> object:

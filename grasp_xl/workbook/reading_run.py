@@ -197,9 +197,21 @@ def written_children(source: Source, space: OptionSpace) -> tuple[Chromosome, ..
 
 
 def _cards(source: Source) -> list[Area]:
-    """Return the genes of the child cards."""
-    names = [f"Child{number}" for number in range(1, 1 + len(source.names))]
-    return [source.names[name] for name in names if name in source.names]
+    """Return the genes of the child cards.
+
+    Raises
+    ------
+    ValueError
+        If the name of one is gone.
+    """
+    named = [f"Child{number}" for number in range(1, 1 + layout.MAX_CHILDREN)]
+    cards = [source.names.get(name) for name in named]
+    while cards and cards[-1] is None:
+        cards.pop()
+    found = [card for card in cards if card]
+    if len(found) < len(cards):
+        raise EditedError(f"the name {named[cards.index(None)]} is missing")
+    return found
 
 
 def _no_run(source: Source, found: str, hint: str) -> InputError:

@@ -148,6 +148,8 @@ UNFORMATTED: dict[str, Any] = {
 def formats_of(style: Style) -> dict[str, Any]:
     """Return all format properties of a style; a border with a colour is a thin line."""
     look = {**UNFORMATTED, "font_size": FONT_SIZE, **style.look}
+    if "indent" in look:  # which Excel does from the left
+        look["align"] = "left"
     return {name: look[name] for name in UNFORMATTED}
 
 

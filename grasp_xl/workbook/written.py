@@ -13,10 +13,13 @@ CellValue = str | int | float | bool | None
 
 
 class WrittenCell(NamedTuple):
-    """What a cell holds: a value, its look, and where there is one the formula that gives it."""
+    """What a cell holds: a value, its look, and where there is one the formula that gives it.
+
+    The look of a cell that somebody else may have changed is None.
+    """
 
     value: CellValue | datetime
-    style: Style
+    style: Style | None
     formula: str | None = None
 
 
