@@ -28,6 +28,8 @@ BENCHMARK = "Benchmark"
 
 PROOF_COLUMN = len(COLUMNS) + 1
 """First of the two columns of what is proved: beside the table, so that its place is always one."""
+WIDTH = PROOF_COLUMN + 2
+"""Columns that the sheet fills."""
 
 
 def write_fitness_table(pen: Pen, result: Result, proved: Proved | None) -> None:
@@ -51,7 +53,7 @@ def write_fitness_table(pen: Pen, result: Result, proved: Proved | None) -> None
     lines = _write_proof(pen, result, proved) if proved else 0
     pen.sheet.freeze_panes(3, 1)
     pen.widths(0, 17, *[14] * (len(COLUMNS) - 1), 3, 34, 28)
-    columns = PROOF_COLUMN + 2 if proved else len(COLUMNS)
+    columns = WIDTH if proved else len(COLUMNS)
     pen.print_pages(Area(FITNESS_TABLE, 0, 0, 3 + max(len(rows), lines), columns))
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from grasp_xl.macros import PROJECTS, project
 from grasp_xl.workbook.cells import Source
-from grasp_xl.workbook.layout import CONFIGURATION, Area
+from grasp_xl.workbook.layout import BLOCK_COLUMN, CONFIGURATION, Area
 from grasp_xl.workbook.package import Package, sheet_parts
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import Style
@@ -29,7 +29,6 @@ BUTTONS = {
 }
 """Macro of each button, by what stands on it."""
 
-BUTTON_COLUMN = 3
 BUTTON_WIDTH, BUTTON_HEIGHT, BUTTON_PITCH = 78, 22, 84
 """Size of a button, and how far apart two begin (pixels)."""
 BUTTON_ROW_HEIGHT = 20.25
@@ -117,7 +116,7 @@ def add_buttons(pen: Pen) -> None:
             "x_offset": 2 + number * BUTTON_PITCH,
             "y_offset": 2,
         }
-        pen.sheet.insert_button(0, BUTTON_COLUMN, look)
+        pen.sheet.insert_button(0, BLOCK_COLUMN, look)
 
 
 def write_settings(pen: Pen, settings: Mapping[str, str]) -> None:

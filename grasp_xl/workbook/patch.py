@@ -11,6 +11,7 @@ from collections.abc import Callable, Collection, Container, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
+from grasp_xl.workbook import fitness_sheet, run_log
 from grasp_xl.workbook.cells import Source, same_formula
 from grasp_xl.workbook.layout import FITNESS_TABLE, RUN_LOG, Area
 from grasp_xl.workbook.styles import UNFORMATTED, formats_of
@@ -19,7 +20,7 @@ from grasp_xl.workbook.written import WrittenBook, WrittenCell, WrittenSheet
 Place = tuple[int, int]
 """Row and column of a cell."""
 
-FREE_COLUMNS = {RUN_LOG: 2, FITNESS_TABLE: 10}
+FREE_COLUMNS = {RUN_LOG: run_log.WIDTH, FITNESS_TABLE: fitness_sheet.WIDTH}
 """Columns that are ours on sheets whose rows differ from run to run, whatever stands there."""
 
 

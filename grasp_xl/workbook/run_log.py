@@ -55,6 +55,9 @@ PROOF_TITLE = "ProofTitle"
 TRADE_OFFS_HASH = "TradeOffsHash"
 """Hash of the trade-offs as we wrote them, by which edited ones are told apart."""
 
+WIDTH = 2
+"""Columns that the sheet fills: labels and values."""
+
 LABEL_WIDTH = 40
 """Width of the column of labels: as much as the longest takes."""
 VALUE_WIDTH = 90
@@ -136,7 +139,7 @@ def write_run_log(
     pen.write(row, 0, "Option space (lists: hashes)", Style.HEADING)
     row = _write_inputs(pen, row + 1, space_rows(task.space))
     pen.widths(0, LABEL_WIDTH, VALUE_WIDTH)
-    pages = [Area(RUN_LOG, 0, 0, inputs - 1, 2), Area(RUN_LOG, inputs, 0, row - inputs, 2)]
+    pages = [Area(RUN_LOG, 0, 0, inputs - 1, WIDTH), Area(RUN_LOG, inputs, 0, row - inputs, WIDTH)]
     pen.print_pages(pictures=pages)
 
 
