@@ -21,8 +21,8 @@ import openpyxl
 import pytest
 import typer
 from bad_workbooks import tiny_export
+from contents import contents
 from editing import files
-from python_calamine import CalamineWorkbook
 
 from grasp_xl import __main__, __version__
 from grasp_xl.cli import options, show
@@ -785,17 +785,6 @@ def test_a_terminal_shows_how_far_the_proof_is(
 # --- the same again ---
 
 
-def cell_values(book: Path) -> dict[str, list[list[Any]]]:
-    """Read all values of a workbook, times aside."""
-    opened = CalamineWorkbook.from_path(book)
-    sheets = {name: opened.get_sheet_by_name(name).to_python() for name in opened.sheet_names}
-    times = ("Started", "Ended", "Seconds of search", "Seconds of exact search")
-    times += ("Time of the exact search (s)",)
-    for name in ("Run Log", "Fitness Table"):
-        sheets[name] = [row for row in sheets[name] if row[0] not in times]
-    return sheets
-
-
 @pytest.mark.parametrize("options", [(), ("--no-elitism", "--start", "random")])
 def test_same_seed_gives_the_same_workbook_bit_for_bit(
     gx: Any, export: Path, options: tuple[str, ...]
@@ -805,6 +794,6 @@ def test_same_seed_gives_the_same_workbook_bit_for_bit(
     for book, seed in zip(books, (7, 7, 8), strict=True):
         told = gx("run", export, "-o", book, "--seed", seed, "--generations", 200, *options)
         assert told.code == 0
-    assert cell_values(books[0]) == cell_values(books[1])
+    assert contents(books[0]) == contents(books[1])
     states = [named(book, "RandomState") for book in books]
     assert states[0] == states[1] != states[2]

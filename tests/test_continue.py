@@ -13,8 +13,8 @@ from typing import Any
 import openpyxl
 import pytest
 from bad_workbooks import tiny_export
+from contents import OF_THE_PLACE, TIMES, contents
 from editing import cell_of, edit, files
-from python_calamine import CalamineWorkbook
 from spaces import plate
 
 from grasp_xl.cli.program import main
@@ -25,11 +25,6 @@ from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.writing import export_workbook
 
 SAMPLES = Path(__file__).parents[1] / "workbooks"
-OF_THIS_RUN = (
-    *("Input file", "Input SHA-256", "Started", "Ended", "Seconds of search"),
-    *("Seconds of exact search", "Time of the exact search (s)"),
-)
-"""What run log and fitness table say of one call of the program."""
 
 
 @pytest.fixture
@@ -83,12 +78,8 @@ def at_once(file: Path, limit: int, *options: str) -> Path:
 
 
 def content(book: Path) -> dict[str, list[list[Any]]]:
-    """Read all values of a workbook but those of OF_THIS_RUN."""
-    opened = CalamineWorkbook.from_path(book)
-    sheets = {name: opened.get_sheet_by_name(name).to_python() for name in opened.sheet_names}
-    for name in ("Run Log", "Fitness Table"):
-        sheets[name] = [row for row in sheets[name] if row[0] not in OF_THIS_RUN]
-    return sheets
+    """Read all values of a workbook but those of one call alone."""
+    return contents(book, (*OF_THE_PLACE, *TIMES))
 
 
 def small_lists(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -87,7 +87,7 @@ def named_cell(book: openpyxl.Workbook, name: str) -> Cell:
 def test_results_have_their_units(book):
     """In the fitness table by the format of each number, in the history by the label."""
     row = book[layout.FITNESS_TABLE][4]
-    units = [re.sub("[^$A-Za-z-]", "", cell.number_format) for cell in row[1:]]
+    units = [re.sub("[^$A-Za-z-]", "", cell.number_format) for cell in row[1:7]]
     assert units == ["", "$", "N-mm", "mm", "mm", ""]
     labels = [cell.value for cell in book[layout.HISTORY][layout.HISTORY_ROW + 1][1:7]]
     assert labels[1:5] == ["Cost ($)", "Residual Moment (N-mm)", "Deviation (mm)", "Structure (mm)"]

@@ -181,9 +181,9 @@ class Comparison:
         """Yield what would be lost of a sheet, and the cell where it stands."""
         ours = self._written.book.sheets[our_name].cells
         for row, column in sorted(filled_cells(self._source, sheet)):
-            if self._is_free(our_name, column):
-                continue
             cell = Area(sheet, row, column)
+            if self._is_free(cell, our_name):
+                continue
             if (row, column) in ours:
                 what = self._change(cell, our_name, ours[row, column])
             else:
@@ -191,11 +191,11 @@ class Comparison:
             if what:
                 yield what, cell
 
-    def _is_free(self, our_name: str, column: int) -> bool:
-        """Tell whether a run says in a column what it likes: in the log, and of other inputs."""
-        if our_name == FITNESS_TABLE and self._written.same_inputs:
+    def _is_free(self, cell: Area, our_name: str) -> bool:
+        """Tell whether a run says in a cell what it likes: in the log; of other inputs, values."""
+        if our_name == FITNESS_TABLE and (self._written.same_inputs or self._formula(cell)):
             return False
-        return column < FREE_COLUMNS.get(our_name, 0)
+        return cell.column < FREE_COLUMNS.get(our_name, 0)
 
     def _change(self, cell: Area, our_name: str, ours: WrittenCell) -> str:
         """Return what is lost of a cell where we have one, too; nothing if it is empty."""
