@@ -7,6 +7,7 @@ import sys
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import openpyxl
 import pytest
@@ -31,6 +32,13 @@ def book(tmp_path: Path) -> Path:
     path = tmp_path / "book.xlsm"
     assert main(["new", str(SAMPLE), "-o", str(path), "--quiet"]) == 0
     return path
+
+
+def pretend(patch: pytest.MonkeyPatch, platform: str, python: str = sys.executable) -> None:
+    """Let the program think that it is somewhere else."""
+    system = SimpleNamespace(platform=platform, executable=python)
+    patch.setattr("grasp_xl.workbook.macros.sys", system)
+    patch.setattr("grasp_xl.commands.excel.sys", system)
 
 
 def parts(path: Path) -> dict[str, bytes]:
@@ -75,7 +83,7 @@ def test_the_buttons_find_the_python_that_made_them(
     """On a computer that has Excel; no Python file beside the workbook is ever run."""
     path = tmp_path / "book.xlsm"
     with monkeypatch.context() as patch:
-        patch.setattr(sys, "platform", platform)
+        pretend(patch, platform)
         assert main(["new", str(SAMPLE), "-o", str(path), "--quiet"]) == 0
     found = settings(path)
     assert found[name] == sys.executable
@@ -144,7 +152,7 @@ def test_a_repair_puts_in_this_python(book: Path, monkeypatch: pytest.MonkeyPatc
     """One cell changes and nothing else; the workbook counts as untouched if it did before."""
     before = parts(book)
     with monkeypatch.context() as patch:
-        patch.setattr(sys, "platform", "win32")
+        pretend(patch, "win32")
         assert main(["excel", str(book)]) == 1
         assert main(["excel", "--repair", str(book), "--quiet"]) == 0
         assert main(["excel", str(book), "--quiet"]) == 0
@@ -163,8 +171,7 @@ def test_a_workbook_that_another_program_saved_is_repaired(
     office.open(book)
     saved = office.save(book.with_name("saved.xlsx")).rename(book.with_name("saved.xlsm"))
     with monkeypatch.context() as patch:
-        patch.setattr(sys, "platform", "darwin")
-        patch.setattr(sys, "executable", "/a & b/<python>")
+        pretend(patch, "darwin", "/a & b/<python>")
         assert main(["excel", "--repair", str(saved), "--quiet"]) == 1  # no such file
     assert settings(saved)["INTERPRETER_MAC"] == "/a & b/<python>"
     assert not is_untouched(saved)
@@ -193,7 +200,7 @@ def test_what_cannot_be_repaired_is_told(
     path = book.with_name(name)
     before = path.read_bytes()
     with monkeypatch.context() as patch:
-        patch.setattr(sys, "platform", platform)
+        pretend(patch, platform)
         assert main(["excel", "--repair", str(path)]) == code
     assert told in capsys.readouterr().err
     assert path.read_bytes() == before

@@ -9,7 +9,7 @@ from pathlib import Path
 from grasp_xl.errors import InputError, Problem, UsageError
 from grasp_xl.workbook.cells import Source
 from grasp_xl.workbook.layout import CONFIGURATION
-from grasp_xl.workbook.macros import INTERPRETERS, read_settings, this_interpreter
+from grasp_xl.workbook.macros import read_settings, setting_here, this_interpreter
 from grasp_xl.workbook.package import read_package
 from grasp_xl.workbook.saving import check_place, save
 from grasp_xl.workbook.setting import with_setting
@@ -50,7 +50,7 @@ def read_buttons(path: Path) -> Buttons:
         expected = f"a workbook with buttons, that is with a sheet {CONFIGURATION}"
         hint = "make one with grasp-xl run BOOK -o OTHER.xlsm"
         raise InputError([Problem(str(path), f"no sheet {CONFIGURATION}", expected, hint)])
-    return Buttons(read_settings(source), INTERPRETERS.get(sys.platform))
+    return Buttons(read_settings(source), setting_here())
 
 
 def repair(path: Path, *, force: bool = False) -> Buttons:

@@ -83,9 +83,14 @@ class Macros:
         return replace(self, settings={**self.settings, **this_interpreter()})
 
 
+def setting_here() -> str | None:
+    """Return the setting with the path of Python here; None where there is no Excel."""
+    return INTERPRETERS.get(sys.platform)
+
+
 def this_interpreter() -> dict[str, str]:
     """Return the setting with the path of this Python; none where there is no Excel."""
-    name = INTERPRETERS.get(sys.platform)
+    name = setting_here()
     return {name: sys.executable} if name else {}
 
 
