@@ -416,6 +416,7 @@ def test_a_press_of_the_button_fills_the_sheets(pressed: Office, log: Path) -> N
     pressed.do("press", sheet="GA", caption="Run")
     assert time.monotonic() - began < 5
     wait_for(lambda: pressed.value("GenerationsDone") == 300)
+    wait_for(lambda: not calc_engine.noted(log)[-1]["text"])  # the outcome was shown
     pressed.enter({"Generations": 1_000_000_000})
     pressed.do("press", sheet="GA", caption="Run")
     wait_for(lambda: "generation" in str(calc_engine.noted(log)[-1]["text"]))
