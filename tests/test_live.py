@@ -340,6 +340,22 @@ def test_stop_ends_a_run_at_once_and_keeps_the_best(book: xw.Book, log: Path) ->
     assert not mark.is_alive
 
 
+def test_a_search_ends_when_excel_is_gone(
+    book: xw.Book, log: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nobody could stop it any more."""
+    typed(book, "Generations", 1_000_000_000)
+    monkeypatch.setattr(excel, "LOST_SECONDS", 1)
+    monkeypatch.setattr(xw.App, "status_bar", property(lambda _: None))  # takes no text
+
+    def ended(*_: Any) -> None:
+        raise EOFError
+
+    monkeypatch.setattr(worker, "_fill", ended)
+    worker.work("run")
+    assert "EOFError" in alerts(log)[-1]
+
+
 def test_of_two_searches_on_a_workbook_one_is_told_to_wait(book: xw.Book, log: Path) -> None:
     """Also where both begin before either is seen; the mark of a killed worker hinders nobody."""
     mark = running.Running.on(book)

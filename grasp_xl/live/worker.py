@@ -93,6 +93,7 @@ def run(book: Book, ask: Interrupt) -> str:
     def generation(progress: Progress) -> None:
         best = f"best {ready.task.rules.criterion.name} {progress.best_value:.6g}"
         status.tell(f"generation {progress.generation:,} of {ready.task.generations:,}, {best}")
+        ask.asked = ask.asked or status.is_lost
 
     result = ready.search([ask, Generations(ready.task.generations)], generation)
     solved = None
