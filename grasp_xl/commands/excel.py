@@ -11,7 +11,8 @@ from grasp_xl.workbook.cells import Source
 from grasp_xl.workbook.layout import CONFIGURATION
 from grasp_xl.workbook.macros import read_settings, setting_here, this_interpreter
 from grasp_xl.workbook.package import read_package
-from grasp_xl.workbook.saving import check_place, save
+from grasp_xl.workbook.reading import open_source
+from grasp_xl.workbook.saving import MACRO_SUFFIX, check_place, save
 from grasp_xl.workbook.setting import with_setting
 from grasp_xl.workbook.stored import StoredCells
 
@@ -45,7 +46,7 @@ def read_buttons(path: Path) -> Buttons:
     InputError
         If it has no buttons.
     """
-    source = Source(StoredCells(read_package(path)))
+    source = open_source(path)
     if CONFIGURATION not in source.sheets:
         expected = f"a workbook with buttons, that is with a sheet {CONFIGURATION}"
         hint = "make one with grasp-xl run BOOK -o OTHER.xlsm"
@@ -63,7 +64,7 @@ def repair(path: Path, *, force: bool = False) -> Buttons:
     InputError, OutputError
         If the file has no buttons, or cannot be written.
     """
-    check_place(path, (".xlsm",), force=force)
+    check_place(path, (MACRO_SUFFIX,), force=force)
     here = this_interpreter()
     if not here:
         raise UsageError(

@@ -18,7 +18,6 @@ from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book
 from grasp_xl.workbook.inputs import changed_inputs, trade_off_rows
 from grasp_xl.workbook.losses import Written, losses, sheet_gone
-from grasp_xl.workbook.macros import MACRO_SUFFIX
 from grasp_xl.workbook.picker import NO_PICKS
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.reading import open_source
@@ -31,6 +30,7 @@ from grasp_xl.workbook.reading_run import (
     shown_proof,
     written_children,
 )
+from grasp_xl.workbook.saving import MACRO_SUFFIX
 from grasp_xl.workbook.stamp import is_untouched
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs
 from grasp_xl.workbook.writing import export_workbook

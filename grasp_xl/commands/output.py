@@ -9,9 +9,10 @@ from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import Generations
 from grasp_xl.task import Task
 from grasp_xl.workbook.book import Book
-from grasp_xl.workbook.macros import MACRO_SUFFIX, Macros
+from grasp_xl.workbook.macros import Macros
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.run_log import Origin
+from grasp_xl.workbook.saving import MACRO_SUFFIX
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs
 from grasp_xl.workbook.writing import full_workbook
 from grasp_xl.workbook.written import WrittenBook

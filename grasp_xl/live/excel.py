@@ -17,7 +17,7 @@ import xlwings as xw
 
 from grasp_xl.errors import InputError, OutputError, Problem
 from grasp_xl.live.words import typed
-from grasp_xl.workbook.cells import Grid, Value
+from grasp_xl.workbook.cells import Grid, Value, cells_of
 from grasp_xl.workbook.layout import Area
 from grasp_xl.workbook.patch import Patch, SheetPatch
 from grasp_xl.workbook.written import CellValue, WrittenCell
@@ -266,20 +266,12 @@ def _apply_to_sheet(sheet: Any, patch: SheetPatch, untouched: Callable[[Area], b
             FORMATS[name](_range(sheet, area), value)
     for area in patch.blocks(lambda place: untouched(Area(patch.sheet, *place))):
         _range(sheet, area).formula = [
-            [_entered(patch.cell(row, column)) for column in _columns(area)] for row in _of(area)
+            [_entered(patch.cell(cell.row, cell.column)) for cell in row] for row in cells_of(area)
         ]
     for area in patch.merged:
         _range(sheet, area).merge()
     if patch.before.printed != patch.after.printed:
         sheet.page_setup.print_area = ",".join(area.absolute for area in patch.after.printed)
-
-
-def _of(area: Area) -> range:
-    return range(area.row, area.row + area.rows)
-
-
-def _columns(area: Area) -> range:
-    return range(area.column, area.column + area.columns)
 
 
 def _range(sheet: Any, area: Area) -> Any:  # noqa: ANN401 (of xlwings)

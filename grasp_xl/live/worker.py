@@ -27,7 +27,7 @@ from grasp_xl.workbook.book import book_of
 from grasp_xl.workbook.cells import Source
 from grasp_xl.workbook.inputs import changed_inputs, input_rows
 from grasp_xl.workbook.layout import Area
-from grasp_xl.workbook.losses import MAX_NAMED, Comparison, sheet_gone
+from grasp_xl.workbook.losses import MAX_NAMED, Comparison, first_named, sheet_gone
 from grasp_xl.workbook.patch import Patch, as_seen
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.reading_ga import find_block, find_ga_sheet
@@ -272,10 +272,9 @@ def _patch(
         if cell in touched
     ]
     if in_the_way:
-        more = f" and {len(in_the_way) - MAX_NAMED} more" if len(in_the_way) > MAX_NAMED else ""
         raise OutputError(
-            f"What stands in {', '.join(in_the_way[:MAX_NAMED])}{more} is not ours, and the "
-            "results would replace it. Nothing was written.",
+            f"What stands in {first_named(in_the_way)} is not ours, and the results "
+            "would replace it. Nothing was written.",
             where=in_the_way[0],
             hint="Move it to another sheet, or undo the change, and try again",
         )

@@ -160,9 +160,13 @@ def _without_sizes(extra: Extra) -> Extra:
 
 
 def _named(what: str, places: list[str]) -> list[str]:
-    places = list(dict.fromkeys(places))
+    return [f"the {what} {first_named(list(dict.fromkeys(places)))}"] if places else []
+
+
+def first_named(places: list[str]) -> str:
+    """Name the first places, and how many more there are."""
     more = f" and {len(places) - MAX_NAMED} more" if len(places) > MAX_NAMED else ""
-    return [f"the {what} {', '.join(places[:MAX_NAMED])}{more}"] if places else []
+    return f"{', '.join(places[:MAX_NAMED])}{more}"
 
 
 class Comparison:

@@ -18,9 +18,6 @@ from grasp_xl.workbook.package import Package, sheet_parts
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import Style
 
-MACRO_SUFFIX = ".xlsm"
-"""How the name of a workbook with macros ends."""
-
 BUTTONS = {
     "Check": "CheckGrasp",
     "Run": "RunGrasp",

@@ -73,7 +73,7 @@ class SheetPatch:
         for place in old.keys() | new.keys():
             was, shall = _formats(old.get(place)), _formats(new.get(place))
             for name, value in shall.items():
-                if was.get(name, value) != value or name not in was:
+                if name not in was or was[name] != value:
                     places[name, value].add(place)
         return {what: [*_blocks(self.sheet, cells)] for what, cells in places.items()}
 

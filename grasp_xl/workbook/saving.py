@@ -13,8 +13,10 @@ from grasp_xl.errors import OutputError, UsageError
 LOCK_FILES = ("~${name}", ".~lock.{name}#")
 """Files that Excel and LibreOffice keep beside a workbook that they hold open."""
 
-WORKBOOK_SUFFIXES = (".xlsx", ".xlsm")
-"""How the name of a workbook ends; the second, with macros."""
+MACRO_SUFFIX = ".xlsm"
+"""How the name of a workbook with macros ends."""
+WORKBOOK_SUFFIXES = (".xlsx", MACRO_SUFFIX)
+"""How the name of a workbook may end."""
 
 REASONS = {
     errno.ENOSPC: ("the disk is full", "free some space, or write to another disk"),
