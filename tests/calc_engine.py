@@ -597,6 +597,10 @@ class Range:
     def number_format(self, code: str) -> None:
         self.do("number_format", code=code)
 
+    @property
+    def row_height(self) -> float | None:
+        return self.do("height")
+
     color = _style("CellBackColor", _rgb, _tuple)
     wrap_text = _style("IsTextWrapped", bool, bool)
     horizontal_alignment = _style("HoriJustify", *_enum("table.CellHoriJustify", HORIZONTAL))

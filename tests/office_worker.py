@@ -20,6 +20,9 @@ try:
     from com.sun.star.beans import PropertyValue
     from com.sun.star.connection import NoConnectException
     from com.sun.star.lang import DisposedException, Locale
+    from com.sun.star.sheet import TableFilterField
+    from com.sun.star.sheet.FilterConnection import AND
+    from com.sun.star.sheet.FilterOperator import EQUAL
     from com.sun.star.table import CellAddress
     from com.sun.star.uno import Exception as UnoException
 except ImportError as error:  # told to the test session in words, which then skips or fails
@@ -33,6 +36,7 @@ WITH_ERROR = 4  # com.sun.star.sheet.FormulaResult.ERROR
 RUN_MACROS = 4  # com.sun.star.document.MacroExecMode.ALWAYS_EXECUTE_NO_WARN
 NO_MACROS = 0  # NEVER_EXECUTE, which is also the default
 DATE, LOGICAL = 2, 1024  # com.sun.star.util.NumberFormat
+POINTS = 72 / 2540  # of 1/100 mm
 THIN, SOLID = 26, 0  # 1/100 mm; com.sun.star.table.BorderLineStyle
 
 
@@ -117,6 +121,13 @@ def block(sheet, where):
     return sheet.getCellRangeByPosition(
         where.StartColumn, where.StartRow, where.EndColumn, where.EndRow
     )
+
+
+def is_filtered(area):
+    """Return whether a filter hides rows of cells."""
+    if numbers(area.RangeAddress) in map(numbers, area.queryVisibleCells().RangeAddresses):
+        return False  # looking at each of many rows takes long
+    return any(row.IsFiltered for row in area.Rows)
 
 
 def content(cell):
@@ -338,6 +349,24 @@ class Live(Session):
         """Select cells."""
         self._book.CurrentController.select(self._area(place))
 
+    def selected(self):
+        """Return the cells that are selected."""
+        return self._book.CurrentController.Selection.AbsoluteName
+
+    def height(self, place):
+        """Return the height of rows in points: 0 for hidden ones, None where they differ."""
+        rows = self._area(place).Rows
+        heights = {row.Height * POINTS if row.IsVisible else 0 for row in rows}
+        return heights.pop() if len(heights) == 1 else None
+
+    def filter(self, table, column, text):
+        """Show the rows of a table alone that have a text in a column, or all if it is None."""
+        what = self._book.DatabaseRanges.getByName(table)
+        descriptor = what.FilterDescriptor
+        fields = (TableFilterField(AND, column, EQUAL, False, 0, text),) if text else ()  # noqa: FBT003 (UNO has no names)
+        descriptor.setFilterFields(fields)
+        what.refresh()
+
     def used(self, sheet):
         """Return the block of a sheet that holds something."""
         cursor = self._book.Sheets.getByName(sheet).createCursor()
@@ -356,6 +385,9 @@ class Live(Session):
     def fill(self, place, constants, formulas, kinds):
         """Write a block: constants, and formulas where there are any."""
         area = self._writable(place)
+        if is_filtered(area):
+            self._fill_filtered(area, formulas[0][0] if formulas else constants[0][0])
+            return
         for where in self._formatted(area, LOGICAL):  # what is written decides what it is
             block(area.Spreadsheet, where).NumberFormat = 0
         if formulas is None:
@@ -368,21 +400,26 @@ class Live(Session):
                 cell.NumberFormat = self._book.NumberFormats.getStandardFormat(kind, Locale())
 
     def add_own(self, sheet):
-        """Add what a designer adds: a sheet with a formula and a chart, a note on another."""
+        """Add what a designer adds: a sheet with formula, chart and filter, a note on another."""
         self._book.Sheets.insertNewByName(sheet, 0)
         own = self._book.Sheets.getByName(sheet)
         own.getCellByPosition(0, 0).setFormula("=$GA.B4+1")
         cells = own.getCellRangeByName("A1:A3").RangeAddress
         own.Charts.addNewByName("Mine", Rectangle(1000, 1000, 8000, 6000), (cells,), False, False)  # noqa: FBT003 (UNO has no names)
+        listed = own.getCellRangeByName("A11:A14")
+        listed.setDataArray((("Kind",), ("a",), ("b",), ("a",)))
+        self._book.DatabaseRanges.addNewByName(sheet, listed.RangeAddress)
+        self.filter(sheet, 0, "a")
         noted = self._book.Sheets.getByName("GA")
         noted.Annotations.insertNew(noted.getCellByPosition(0, 60).CellAddress, "my note")
 
     def read_own(self, sheet):
-        """Return what is there of it, and how many charts and notes the other sheets have."""
+        """Return what is there of it, the notes, and how many charts each sheet has."""
         own = self._book.Sheets.getByName(sheet)
         notes = [note.String for note in self._book.Sheets.getByName("GA").Annotations]
         charts = {each.Name: each.Charts.Count for each in self._book.Sheets}
-        return own.getCellByPosition(0, 0).Formula, sorted(notes), charts
+        listed = own.getCellRangeByName("A11:A14").queryVisibleCells().RangeAddressesAsString
+        return own.getCellByPosition(0, 0).Formula, listed, sorted(notes), charts
 
     def replace_module(self, library, module, source):
         """Give a macro module another source."""
@@ -492,6 +529,14 @@ class Live(Session):
             if protection is None or protection.IsLocked:
                 raise ValueError(f"the sheet of {area.AbsoluteName} is protected")
         return area
+
+    def _fill_filtered(self, area, first):
+        """Do what Excel does where a filter hides rows (xlwings, issues 679 and 747).
+
+        The first cell of what is written goes into each visible one; hidden ones stay.
+        """
+        for cells in area.queryVisibleCells():
+            cells.setFormulaArray([[typed(first)] * len(row) for row in cells.getFormulaArray()])
 
     def _fill_mixed(self, area, constants, formulas):
         """Write constants and formulas at once; what was read in another way, once more."""

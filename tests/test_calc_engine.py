@@ -177,3 +177,17 @@ def test_an_unsaved_workbook_has_no_folder(book, office):
     office.open(office.path, unsaved=True)
     assert book.fullname == book.name
     assert book.sheets["My Sheet"].range("A2").value == 1.5
+
+
+def test_a_filter_hides_rows_from_a_block_that_is_written(book, office):
+    """As in Excel: the first cell goes into each visible row, hidden ones stay, and have no height."""
+    cells = book.sheets["My Sheet"].range("A2:A4")
+    cells.value = [[1], [2], [3]]
+    book.sheets["My Sheet"].tables["Parts"].resize(book.sheets["My Sheet"].range("A1:B4"))
+    assert cells.row_height > 0
+    office.do("filter", table="Parts", column=0, text="2")
+    assert [cell.row_height > 0 for cell in cells] == [False, True, False]
+    assert cells.row_height is None
+    cells.value = [[5], [6], [7]]
+    office.do("filter", table="Parts", column=0, text=None)
+    assert cells.value == [1, 5, 3]

@@ -212,6 +212,42 @@ def test_what_is_not_ours_is_never_replaced(
     assert book.names["GenerationsDone"].refers_to_range.value == GENERATIONS
 
 
+def test_filters_and_selection_stay(
+    office: Office, log: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Excel mixes up what is written where a filter hides rows: results wait until it is cleared."""
+    office.open(SAMPLES / "bracket-result.xlsx")
+    book = calc_engine.book_of(office)
+    typed(book, "Generations", 200)
+    book.sheets["Fitness Table"].activate()
+    book.sheets["Fitness Table"].range("B3:D5").select()
+    selected, prove = office.do("selected"), worker.prove_run
+
+    def filter_designs(text: str | None) -> None:
+        office.do("filter", table="ValidDesigns", column=0, text=text)
+
+    def filter_and_prove(*args: Any, **options: Any) -> Any:
+        filter_designs("11")
+        return prove(*args, **options)
+
+    filter_designs("1")
+    before = contents(book)
+    monkeypatch.setattr(worker, "prove_run", None)  # asked after the search
+    worker.work("run")
+    assert alerts(log)[0].startswith("Rows of 'Valid Designs' are hidden, row 10 among them")
+    assert contents(book) == before
+    filter_designs(None)
+    monkeypatch.setattr(worker, "prove_run", filter_and_prove)
+    monkeypatch.setattr(worker, "WAIT_SECONDS", 600)
+    monkeypatch.setattr(worker.time, "sleep", lambda _: filter_designs(None))
+    worker.work("run")
+    assert alerts(log)[1].startswith("Rows of 'Valid Designs' are hidden")
+    assert len(alerts(log)) == 2
+    assert book.names["GenerationsDone"].refers_to_range.value == 200
+    assert office.do("selected") == selected
+    office.do("close")
+
+
 def test_what_is_in_the_way_of_any_result_is_told_before_the_search(
     book: xw.Book, office: Office, log: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

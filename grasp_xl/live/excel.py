@@ -8,7 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cached_property
 from typing import Any
@@ -207,6 +207,41 @@ def _formulas_alone(texts: list[list[Any]], values: list[list[Value]]) -> list[l
 # --- writing ---
 
 
+def refuse_hidden_rows(book: Book, patch: Patch) -> None:
+    """Refuse to write into rows that are hidden.
+
+    Where a filter hides rows, Excel puts the first cell of a block into each visible one, and
+    nothing into the others (xlwings, issues 679 and 747). It does not tell why a row is hidden.
+
+    Raises
+    ------
+    OutputError
+        With the first such row.
+    """
+    for sheet in patch.sheets:
+        for area in sheet.rows():
+            hidden = _first_hidden(book.sheets[sheet.sheet], area)
+            if hidden is not None:
+                raise OutputError(
+                    f"Rows of {sheet.sheet!r} are hidden, row {1 + hidden} among them, and where a "
+                    "filter hides rows, Excel mixes up what is written. Nothing was written.",
+                    where=Area(sheet.sheet, hidden, 0).where,
+                    hint="Show all rows (Data > Clear shows those that a filter hides)",
+                )
+
+
+def _first_hidden(sheet: Any, area: Area) -> int | None:  # noqa: ANN401 (an xlwings sheet)
+    """Return the first row of an area that is hidden; looks into halves where heights differ."""
+    height = _range(sheet, area).row_height
+    if height is not None:
+        return area.row if height == 0 else None
+    half = area.rows // 2
+    upper = replace(area, rows=half)
+    lower = replace(area, row=area.row + half, rows=area.rows - half)
+    hidden = _first_hidden(sheet, upper)
+    return _first_hidden(sheet, lower) if hidden is None else hidden
+
+
 def apply(book: Book, patch: Patch, untouched: Callable[[Area], bool]) -> None:
     """Bring an open workbook from what it shows to another result, whole or not at all.
 
@@ -220,8 +255,9 @@ def apply(book: Book, patch: Patch, untouched: Callable[[Area], bool]) -> None:
     Raises
     ------
     OutputError
-        If Excel refuses a part of it; the sheets are then as they were.
+        If rows are hidden, or Excel refuses a part of it; the sheets are then as they were.
     """
+    refuse_hidden_rows(book, patch)
     with book.app.properties(screen_updating=False, calculation="manual"):
         try:
             _apply(book, patch, untouched)

@@ -15,7 +15,15 @@ from grasp_xl.commands.run import Ran, get_ready
 from grasp_xl.commands.solve import prove_run, solve_book
 from grasp_xl.compiled import is_compiled
 from grasp_xl.errors import GraspError, InputError, OutputError, Problem
-from grasp_xl.live.excel import Book, OpenCells, StatusBar, apply, calling_book, tell
+from grasp_xl.live.excel import (
+    Book,
+    OpenCells,
+    StatusBar,
+    apply,
+    calling_book,
+    refuse_hidden_rows,
+    tell,
+)
 from grasp_xl.live.running import Running
 from grasp_xl.search.exact import ExactSettings
 from grasp_xl.search.result import Result
@@ -88,7 +96,7 @@ def run(book: Book, ask: Interrupt) -> str:
     clock, status = time.perf_counter(), StatusBar(book)
     _say_if_it_compiles(status, "evolution")
     ready = get_ready(_read(book), AS_THE_WORKBOOK_SAYS, ask)
-    _refuse_unfit(ready.book, ready.task)
+    _refuse_unfit(book, ready.book, ready.task)
 
     def generation(progress: Progress) -> None:
         best = f"best {ready.task.rules.criterion.name} {progress.best_value:.6g}"
@@ -117,7 +125,7 @@ def prove(book: Book, ask: Interrupt) -> str:
     status = StatusBar(book)
     _say_if_it_compiles(status, "exact")
     said = _read(book)
-    _refuse_unfit(said, prepare(said, AS_THE_WORKBOOK_SAYS, stop=ask.is_asked))
+    _refuse_unfit(book, said, prepare(said, AS_THE_WORKBOOK_SAYS, stop=ask.is_asked))
     settings = ExactSettings(PROVE_SECONDS)
     solved = solve_book(said, AS_THE_WORKBOOK_SAYS, settings, ask, on_progress=_bound(status))
     if solved.obstacle:
@@ -158,11 +166,12 @@ def _bound(status: StatusBar) -> Callable[[float, float | None], None]:
     return tell_bound
 
 
-def _refuse_unfit(said: Said, task: Task) -> None:
+def _refuse_unfit(book: Book, said: Said, task: Task) -> None:
     """Refuse, before any search, what the sheets could not show in the end.
 
     That is inputs for which the workbook has too many or too few cards or genes, trade-offs of
-    other inputs, a sheet that is gone, or something in the way of what each result has.
+    other inputs, a sheet that is gone, or something in the way of what each result has: cells that
+    are not ours, hidden rows.
 
     Raises
     ------
@@ -184,7 +193,8 @@ def _refuse_unfit(said: Said, task: Task) -> None:
     problems += [replace(problem, hint=hint) for problem in stale]
     if problems:
         raise InputError(problems)
-    _patch(said, task, not_begun(task), None)
+    patch, _ = _patch(said, task, not_begun(task), None)
+    refuse_hidden_rows(book, patch)
 
 
 def _where(said: Said, name: str) -> str:

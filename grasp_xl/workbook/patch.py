@@ -59,6 +59,10 @@ class SheetPatch:
         kept = self.after.cells.keys() - changed
         return [*_blocks(self.sheet, changed, lambda place: place in kept and untouched(place))]
 
+    def rows(self) -> list[Area]:
+        """Return the first cells of the rows in which a cell changes, in runs."""
+        return [*_blocks(self.sheet, {(row, 0) for row, _ in self.changed()})]
+
     def cell(self, row: int, column: int) -> WrittenCell | None:
         """Return what a cell shall hold."""
         return self.after.cells.get((row, column))
