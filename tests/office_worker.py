@@ -361,11 +361,12 @@ class Live(Session):
 
     def filter(self, table, column, text):
         """Show the rows of a table alone that have a text in a column, or all if it is None."""
-        what = self._book.DatabaseRanges.getByName(table)
-        descriptor = what.FilterDescriptor
-        fields = (TableFilterField(AND, column, EQUAL, False, 0, text),) if text else ()  # noqa: FBT003 (UNO has no names)
-        descriptor.setFilterFields(fields)
-        what.refresh()
+        cells = self._book.DatabaseRanges.getByName(table).ReferredCells
+        descriptor = cells.createFilterDescriptor(True)  # noqa: FBT003 (UNO has no names)
+        if text:
+            descriptor.FilterFields = (TableFilterField(AND, column, EQUAL, False, 0, text),)  # noqa: FBT003
+        descriptor.ContainsHeader = True
+        cells.filter(descriptor)
 
     def used(self, sheet):
         """Return the block of a sheet that holds something."""
