@@ -9,6 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+MAX_PROBLEMS = 50
+"""Problems that are named; a list of all would help nobody."""
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:
@@ -77,6 +80,22 @@ class InputError(GraspError):
             " ".join(str(problem) for problem in problems), where=first.where, hint=first.hint
         )
         self.problems = tuple(problems)
+
+
+def refuse(problems: Sequence[Problem], name: str) -> None:
+    """Raise what was found wrong in a file.
+
+    Raises
+    ------
+    InputError
+        With every problem, if there is any; with a count of those after the first fifty.
+    """
+    told = list(problems[:MAX_PROBLEMS])
+    if len(problems) > MAX_PROBLEMS:
+        rest = f"problems beyond the first {MAX_PROBLEMS}: {len(problems) - MAX_PROBLEMS}"
+        told.append(Problem(name, rest, "none", "mend the first ones first"))
+    if told:
+        raise InputError(told)
 
 
 class OutputError(GraspError):

@@ -18,9 +18,8 @@ from bad_workbooks import (
     write_book,
 )
 
-from grasp_xl.errors import InputError, Problem
+from grasp_xl.errors import MAX_PROBLEMS, InputError, Problem
 from grasp_xl.workbook.book import read_book
-from grasp_xl.workbook.cells import MAX_PROBLEMS
 
 
 def problems_of(path: Path) -> list[Problem]:

@@ -21,7 +21,7 @@ from grasp_xl.chromosome import Chromosome
 from grasp_xl.cli.program import app, main
 from grasp_xl.commands.check import check_file
 from grasp_xl.commands.preparing import given_grasp, prepare
-from grasp_xl.errors import GraspError
+from grasp_xl.errors import MAX_PROBLEMS, GraspError
 from grasp_xl.grasp import evaluate
 from grasp_xl.rules import Goals, Requirements, Rules, Terms
 from grasp_xl.search import stop
@@ -291,7 +291,7 @@ def test_defaults_of_the_parameters_are_right() -> None:
         f"{package.MAX_PARTS:,}; {package.MAX_WHOLE_PART_BYTES // 1_000_000} MB",
         f"{stored.MAX_FILLED_ROWS:,}; {stored.MAX_CELLS:,}",
         f"first {cells.LABEL_ROWS} rows",
-        f"at once, up to {cells.MAX_PROBLEMS},",
+        f"at once, up to {MAX_PROBLEMS},",
         f"at most {run_log.MAX_DESIGNS:,}",
         f"at most {run_log.MAX_HISTORY:,}",
     ],

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple, Protocol
 
-from grasp_xl.errors import InputError, Problem
+from grasp_xl.errors import Problem, refuse
 from grasp_xl.workbook.layout import CONFIGURATION, SHEETS, TRADE_OFFS, Area, Field, area_of
 from grasp_xl.workbook.package import MAX_ROWS
 
@@ -20,9 +20,6 @@ MAX_NUMBER = 1e9
 
 MIN_DISTANCE = 1e-9
 """How far a number must keep from a bound that it may not touch, since others are divided by it."""
-
-MAX_PROBLEMS = 50
-"""Problems that are named; a list of all would help nobody."""
 
 LABEL_ROWS = 500
 """Rows in which labels are looked for."""
@@ -219,12 +216,7 @@ class Source:
         InputError
             With every problem, if there is any; with a count of those after the first fifty.
         """
-        problems = self.problems[:MAX_PROBLEMS]
-        if len(self.problems) > MAX_PROBLEMS:
-            rest = f"problems beyond the first {MAX_PROBLEMS}: {len(self.problems) - MAX_PROBLEMS}"
-            problems.append(Problem(self.name, rest, "none", "mend the first ones first"))
-        if problems:
-            raise InputError(problems)
+        refuse(self.problems, self.name)
 
     def blank(self, cell: Area) -> bool:
         """Tell whether a cell is empty, or holds white space only."""
