@@ -26,6 +26,7 @@ from bad_workbooks import (
     tiny_export,
 )
 
+from grasp_xl import file_content
 from grasp_xl.errors import InputError, Problem
 from grasp_xl.workbook import package
 
@@ -120,7 +121,7 @@ def test_a_file_that_changes_while_it_is_read_is_refused(tmp_path: Path) -> None
     path = tmp_path / "book.xlsx"
     tiny_export(path)
     with BusyFile(str(path)) as file, pytest.raises(InputError) as refusal:
-        package.read_unchanged(file, "book.xlsx")
+        file_content.read_unchanged(file, "book.xlsx", package.WORKBOOK)
     assert refusal.value.problems == (
         Problem(
             "book.xlsx",

@@ -10,7 +10,7 @@ import grasp_xl
 ROOT = Path(grasp_xl.__file__).parent
 
 LAYERS = (
-    ("adding", "errors", "compiled", "rounding"),
+    ("adding", "errors", "compiled", "file_content", "rounding"),
     ("space",),
     ("chromosome", "rules", "polygon"),
     ("criteria",),

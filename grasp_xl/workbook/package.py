@@ -7,9 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import io
-import os
 import re
-import stat
 import sys
 import warnings
 import zipfile
@@ -20,7 +18,7 @@ from copy import copy
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
-from typing import Any, BinaryIO, cast
+from typing import Any, cast
 from xml.etree.ElementTree import Element
 
 import openpyxl
@@ -33,6 +31,7 @@ from openpyxl.xml.constants import ARC_CONTENT_TYPES, ARC_WORKBOOK, XLSM, XLSX, 
 from openpyxl.xml.functions import fromstring, iterparse
 
 from grasp_xl.errors import InputError, Problem
+from grasp_xl.file_content import FileKind, megabytes, read_content
 
 MAX_FILE_BYTES = 128_000_000
 """An export of 200,000 cups and 200,000 magnets has 18 MB."""
@@ -62,6 +61,9 @@ A_WHOLE_WORKBOOK = "a whole, undamaged workbook"
 SAVE_AS = 'choose File > Save As and the type "Excel Workbook (*.xlsx)"'
 SAVE_IN_EXCEL = f"open it in Excel, {SAVE_AS}"
 GET_ANOTHER_COPY = "copy, download or export it again"
+WORKBOOK = FileKind(
+    "workbook", A_WORKBOOK, MAX_FILE_BYTES, "save a copy that has the option space's sheet only"
+)
 
 _ZIP_STARTS = (b"PK\x03\x04", b"PK\x05\x06")
 _ZIP_ENTRY = b"PK\x01\x02"
@@ -115,7 +117,7 @@ def read_package(path: Path) -> Package:
     InputError
         With one problem, whatever is wrong with the file.
     """
-    package = Package(str(path), _content_of(path))
+    package = Package(str(path), read_content(path, WORKBOOK))
     _refuse_other_files(package)
     with _failures_told(package.name):
         _refuse_too_many_parts(package)
@@ -176,68 +178,6 @@ def _refusal(name: str, found: str, expected: str, hint: str) -> InputError:
 
 def _damaged(name: str, found: str) -> InputError:
     return _refusal(name, found, A_WHOLE_WORKBOOK, GET_ANOTHER_COPY)
-
-
-# --- the file ---
-
-
-def _content_of(path: Path) -> bytes:
-    name = str(path)
-    try:
-        mode = path.stat().st_mode  # before opening: to open a pipe would wait for ever
-        if stat.S_ISDIR(mode):
-            raise _refusal(name, "a folder", A_WORKBOOK, "name the workbook in it")
-        if not stat.S_ISREG(mode):
-            raise _refusal(
-                name, "a pipe or device", A_WORKBOOK, "write its content to a file and name that"
-            )
-        with path.open("rb") as file:
-            return read_unchanged(file, name)
-    except (FileNotFoundError, NotADirectoryError):
-        raise _refusal(
-            name, "no such file", A_WORKBOOK, "check the spelling and the folder"
-        ) from None
-    except PermissionError:
-        raise _refusal(
-            name,
-            "a file without permission to read it",
-            "a file that you may read",
-            "close it in other programs, or ask its owner for permission",
-        ) from None
-    except OSError as error:
-        raise _refusal(
-            name,
-            f"a file that cannot be read ({error.strerror})",
-            "a file that can be read",
-            "copy it to a folder on this computer and try again",
-        ) from error
-
-
-def read_unchanged(file: BinaryIO, name: str) -> bytes:
-    """Read a whole open file, and refuse it if another program writes it meanwhile."""
-    before = os.fstat(file.fileno())
-    if before.st_size > MAX_FILE_BYTES:
-        raise _refusal(
-            name,
-            f"a file of {_megabytes(before.st_size)}",
-            f"at most {_megabytes(MAX_FILE_BYTES)}",
-            "save a copy that has the option space's sheet only",
-        )
-    content = file.read(MAX_FILE_BYTES + 1)
-    after = os.fstat(file.fileno())
-    stamps = [(status.st_size, status.st_mtime_ns) for status in (before, after)]
-    if stamps[0] != stamps[1] or len(content) != before.st_size:
-        raise _refusal(
-            name,
-            "a file that changed while it was read",
-            "a file at rest",
-            "close the program that writes it and try again",
-        )
-    return content
-
-
-def _megabytes(size: int) -> str:
-    return f"{-(-size // 1_000_000):,} MB"
 
 
 # --- the kind of file ---
@@ -311,7 +251,7 @@ def _document_type(name: str, part: str = "") -> InputError:
 
 
 def _bomb(package: Package) -> InputError:
-    allowed = _megabytes(package.allowed_unpacked_bytes)
+    allowed = megabytes(package.allowed_unpacked_bytes)
     return _refusal(
         package.name,
         f"parts that unpack to more than {allowed}, as a zip bomb does",
@@ -355,8 +295,8 @@ def _check_directory(package: Package, archive: zipfile.ZipFile) -> None:
         if part.file_size > MAX_WHOLE_PART_BYTES and _WHOLE_PART.search(part.filename.lower()):
             raise _refusal(
                 package.name,
-                f"{_megabytes(part.file_size)} in the part {part.filename!r}",
-                f"at most {_megabytes(MAX_WHOLE_PART_BYTES)}",
+                f"{megabytes(part.file_size)} in the part {part.filename!r}",
+                f"at most {megabytes(MAX_WHOLE_PART_BYTES)}",
                 "save a copy that has the option space's sheet only",
             )
 
