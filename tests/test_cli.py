@@ -27,6 +27,7 @@ from editing import files
 from grasp_xl import __main__, __version__
 from grasp_xl.cli import options, show
 from grasp_xl.cli.program import app, main
+from grasp_xl.cli.terminal import Terminal
 from grasp_xl.commands import sentences
 from grasp_xl.commands.solve import solve_file
 from grasp_xl.search import stop
@@ -775,7 +776,7 @@ def test_a_terminal_shows_how_far_the_proof_is(
     gx: Any, bracket: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     screen = io.StringIO()
-    monkeypatch.setattr(show, "_err", show.Terminal(file=screen, force_terminal=True))
+    monkeypatch.setattr(show, "ERR", Terminal(file=screen, force_terminal=True))
     monkeypatch.setattr(show, "REFRESH_SECONDS", 0.0)
     assert gx("solve", bracket).code == 0
     for word in ("none below", "best", "gap", " s"):

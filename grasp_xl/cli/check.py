@@ -36,7 +36,7 @@ def check(
 
     Example: grasp-xl check workbooks/bracket.xlsx
     """
-    from grasp_xl.cli import reporting, show
+    from grasp_xl.cli import reporting, show, terminal
     from grasp_xl.commands.check import check_file
 
     options = parameters(goals, fos, clearance, density_ratio, criterion, moment_arm, seed)
@@ -49,7 +49,7 @@ def check(
         reporting.print_json(reporting.failed_check_json(error))
         raise typer.Exit(error.exit_code) from error
     if not quiet:
-        show.warnings(checked.warnings)
+        terminal.warnings(checked.warnings)
     if as_json:
         reporting.print_json(reporting.check_json(checked))
     elif not quiet:

@@ -37,14 +37,14 @@ def evaluate(
 
     Example: grasp-xl evaluate workbooks/bracket.xlsx --cups 1,9,20 --magnets 3
     """
-    from grasp_xl.cli import reporting, show
+    from grasp_xl.cli import reporting, show, terminal
     from grasp_xl.commands.evaluate import evaluate_grasp
 
     options = parameters(goals, fos, clearance, density_ratio, criterion, moment_arm, seed)
     show.compile_notice(quiet=quiet)
     task, grasp = evaluate_grasp(file, options, (cups, magnets))
     if not quiet:
-        show.warnings(task.warnings)
+        terminal.warnings(task.warnings)
     if as_json:
         reporting.print_json(reporting.grasp_json(grasp, task.rules))
     elif not quiet:

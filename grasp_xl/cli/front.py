@@ -43,7 +43,7 @@ def front(
 
     Example: grasp-xl front workbooks/bracket.xlsx -o trade-offs.xlsx
     """
-    from grasp_xl.cli import reporting, show
+    from grasp_xl.cli import reporting, show, terminal
     from grasp_xl.commands.front import front_file
     from grasp_xl.commands.output import Output
     from grasp_xl.search.stop import stop_on_ctrl_c
@@ -61,7 +61,7 @@ def front(
             on_progress=shown,
         )
     if not quiet:
-        show.warnings(found.task.warnings)
+        terminal.warnings(found.task.warnings)
     if as_json:
         reporting.print_json(reporting.front_json(found, str(output) if output else None))
     elif not quiet:

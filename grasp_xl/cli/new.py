@@ -43,7 +43,7 @@ def new(
 
     Example: grasp-xl new export.xlsx -o bracket.xlsx
     """
-    from grasp_xl.cli import reporting, show
+    from grasp_xl.cli import reporting, show, terminal
     from grasp_xl.commands.new import make_workbook
     from grasp_xl.commands.output import Output
 
@@ -52,8 +52,8 @@ def new(
     place = Output(output, force=force)
     task = make_workbook(file, options, place, (cups, magnets))
     if not quiet:
-        show.warnings(task.warnings)
+        terminal.warnings(task.warnings)
     if as_json:
         reporting.print_json(reporting.new_json(task, str(output)))
     elif not quiet:
-        show.line(f"Wrote {output}.")
+        terminal.line(f"Wrote {output}.")

@@ -81,7 +81,7 @@ def run(
 
     Example: grasp-xl run workbooks/bracket.xlsx -o result.xlsx --seed 1
     """
-    from grasp_xl.cli import reporting, show
+    from grasp_xl.cli import reporting, show, terminal
     from grasp_xl.commands.output import Output
     from grasp_xl.commands.run import run_file
     from grasp_xl.commands.solve import prove_run
@@ -134,7 +134,7 @@ def run(
             prove=proved,
         )
     if not quiet:
-        show.warnings(ran.task.warnings)
+        terminal.warnings(ran.task.warnings)
     if as_json:
         reporting.print_json(reporting.run_json(ran, str(path)))
     elif not quiet:

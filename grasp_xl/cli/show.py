@@ -1,4 +1,4 @@
-"""What a person sees on the terminal: tables, progress, warnings."""
+"""What a person sees on the terminal: tables and progress."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.box import SIMPLE
-from rich.console import Console
 from rich.progress import BarColumn, SpinnerColumn, TextColumn
 from rich.progress import Progress as Bars
 from rich.table import Table
 
+from grasp_xl.cli.terminal import ERR, OUT, line
 from grasp_xl.commands import sentences
 from grasp_xl.compiled import is_compiled
-from grasp_xl.errors import Problem
 from grasp_xl.grasp import Grasp
 from grasp_xl.rounding import percent
 from grasp_xl.rules import DIVERGENCE, TERMS, UNITS, Rules
@@ -34,36 +33,13 @@ if TYPE_CHECKING:
 REFRESH_SECONDS = 0.2
 
 
-class Terminal(Console):
-    """A console that leaves a pipe that nobody reads any more to ``cli.main``."""
-
-    def on_broken_pipe(self) -> None:
-        """Raise what was raised."""
-        raise  # noqa: PLE0704 (rich calls this while it handles BrokenPipeError)
-
-
-_out = Terminal(soft_wrap=True, highlight=False)
-_err = Terminal(stderr=True, soft_wrap=True, highlight=False)
-
-
-def line(text: str) -> None:
-    """Print one line."""
-    _out.print(text, markup=False)
-
-
-def warnings(found: Sequence[Problem]) -> None:
-    """Print warnings on standard error."""
-    for warning in found:
-        _err.print(f"Warning: {warning}", style="yellow", markup=False)
-
-
 def compile_notice(
     *, quiet: bool, module: str = "", what: str = "search", seconds: int = 10
 ) -> None:
     """Say why the first run on a machine takes longer, where a module's code is not there yet."""
     with suppress(OSError):  # a cache that may not be read is no reason to fail
         if not quiet and not is_compiled(module):
-            _err.print(f"Compiling the {what} for this machine, once: about {seconds} seconds ...")
+            ERR.print(f"Compiling the {what} for this machine, once: about {seconds} seconds ...")
 
 
 class SearchBar:
@@ -119,11 +95,11 @@ class SearchBar:
 @contextmanager
 def progress(*, quiet: bool) -> Iterator[SearchBar]:
     """Give a bar with generation, best value, rate and time left; it shows on a terminal only."""
-    if quiet or not _err.is_terminal:
+    if quiet or not ERR.is_terminal:
         yield SearchBar(None)
         return
     columns = (BarColumn(), TextColumn("{task.description}", markup=False))
-    with Bars(*columns, console=_err, auto_refresh=False, transient=True) as bars:
+    with Bars(*columns, console=ERR, auto_refresh=False, transient=True) as bars:
         yield SearchBar(bars)
 
 
@@ -165,11 +141,11 @@ def proof_progress(*, quiet: bool) -> Iterator[ProofLine]:
 
 @contextmanager
 def _spinner(*, quiet: bool) -> Iterator[Bars | None]:
-    if quiet or not _err.is_terminal:
+    if quiet or not ERR.is_terminal:
         yield None
         return
     columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False))
-    with Bars(*columns, console=_err, auto_refresh=False, transient=True) as bars:
+    with Bars(*columns, console=ERR, auto_refresh=False, transient=True) as bars:
         yield bars
 
 
@@ -221,7 +197,7 @@ def grasps(columns: Sequence[tuple[str, Grasp]], rules: Rules) -> None:
     table.add_row("clearance (mm)", *distances, f"{rules.requirements.clearance_mm:.1f}")
     table.add_row("feasible", *("yes" if grasp.feasible else "no" for grasp in shown), "")
     table.add_row("meets all goals", *("yes" if g.meets_all_goals else "no" for g in shown), "")
-    _out.print(table)
+    OUT.print(table)
 
 
 def run(ran: Ran, path: Path) -> None:
@@ -250,7 +226,7 @@ def solve(solved: Solved) -> None:
     table.add_row("goal", "", "", *_shown_goals(rules), "")
     if solved.floors:
         table.add_row("floor", "", "", *_shown_floors(solved.floors), "")
-    _out.print(table)
+    OUT.print(table)
     line(sentences.proof(solved))
     if solved.output:
         line(f"Wrote {solved.output}.")
@@ -264,7 +240,7 @@ def front(found: FoundFront, path: Path | None) -> None:
         divergence = f"{design.grasp.divergence:,.6g}"
         table.add_row(str(number), *_shown(design.grasp), divergence, proof)
     table.add_row("goal", "", "", *_shown_goals(found.task.rules), "", "")
-    _out.print(table)
+    OUT.print(table)
     line(found.told)
     if path:
         line(f"Wrote {path}.")

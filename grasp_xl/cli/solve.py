@@ -54,7 +54,7 @@ def solve(
 
     Example: grasp-xl solve workbooks/door_frame.xlsx --top 3
     """
-    from grasp_xl.cli import reporting, show
+    from grasp_xl.cli import reporting, show, terminal
     from grasp_xl.commands.output import Output
     from grasp_xl.commands.solve import solve_file
     from grasp_xl.search.exact import ExactSettings
@@ -80,7 +80,7 @@ def solve(
         reporting.print_json(reporting.failed_solve_json(error))
         raise typer.Exit(error.exit_code) from error
     if not quiet:
-        show.warnings(solved.task.warnings)
+        terminal.warnings(solved.task.warnings)
     if as_json:
         reporting.print_json(reporting.solve_json(solved))
     elif solved.obstacle:
