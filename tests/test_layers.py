@@ -10,7 +10,7 @@ import grasp_xl
 ROOT = Path(grasp_xl.__file__).parent
 
 LAYERS = (
-    ("adding", "errors", "compiled", "file_content", "rounding"),
+    ("adding", "errors", "compiled", "file_content", "printable", "rounding"),
     ("space",),
     ("chromosome", "rules", "polygon"),
     ("criteria",),
@@ -18,6 +18,7 @@ LAYERS = (
     ("stability",),
     ("search",),
     ("task",),
+    ("fitment",),
     ("workbook", "macros"),
     ("commands",),
     ("cli", "live"),

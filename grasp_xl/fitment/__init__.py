@@ -1,0 +1,1 @@
+"""From gripper elements and faces of a part to an option space; no workbook is known."""
