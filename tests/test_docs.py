@@ -8,6 +8,7 @@ import math
 import re
 import shlex
 import shutil
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -22,6 +23,8 @@ from grasp_xl.cli.program import app, main
 from grasp_xl.commands.check import check_file
 from grasp_xl.commands.preparing import given_grasp, prepare
 from grasp_xl.errors import MAX_PROBLEMS, GraspError
+from grasp_xl.fitment import csv_table, element
+from grasp_xl.fitment.catalogue import find, read_catalogue
 from grasp_xl.grasp import evaluate
 from grasp_xl.rules import Goals, Requirements, Rules, Terms
 from grasp_xl.search import stop
@@ -49,9 +52,9 @@ from grasp_xl.workbook.book import read_book
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
-ALGORITHM, COMMANDS, WORKBOOK = (
+ALGORITHM, COMMANDS, ELEMENTS, WORKBOOK = (
     (DOCS / f"{name}.md").read_text(encoding="utf-8")
-    for name in ("algorithm", "commands", "workbook")
+    for name in ("algorithm", "commands", "elements", "workbook")
 )
 
 OTHER_SECTIONS = {"Options", "Exit codes", "JSON"}
@@ -141,7 +144,7 @@ def test_the_option_table_is_that_of_the_program() -> None:
     assert documented_global == GLOBAL_OPTIONS
 
 
-@pytest.mark.parametrize("text", [ALGORITHM, COMMANDS, WORKBOOK])
+@pytest.mark.parametrize("text", [ALGORITHM, COMMANDS, ELEMENTS, WORKBOOK])
 def test_no_page_speaks_of_an_unknown_option(text: str) -> None:
     known = {name for _, name in OPTIONS} | GLOBAL_OPTIONS
     assert set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", text)) <= known
@@ -193,12 +196,57 @@ def test_json_has_the_documented_keys(folder: Path, capsys: pytest.CaptureFixtur
     assert set(told("run", book, "-o", output, "--generations", "9")) == keys_of("JSON of run")
     assert set(told("check", book)) == keys_of("JSON of check")
     assert set(told("solve", book)) == keys_of("JSON of solve")
+    assert set(told("elements")) == keys_of("JSON of elements")
     front = told("front", book, "--time-limit", "0")
     assert set(front) == keys_of("JSON of front")
     added = {"error", "where", "hint"}
     assert set(told("check", book, "--fos", "99")) == keys_of("JSON of check") | added
     assert set(told("solve", book, "--fos", "99")) == keys_of("JSON of solve") | added
     assert set(told("evaluate", str(folder / "none.xlsx"))) == keys_of("JSON of an error")
+
+
+# --- elements ---
+
+
+def test_every_column_of_the_catalogue_is_documented() -> None:
+    columns = list(rows(ELEMENTS, "Column", "Needed"))
+    assert {literals(row["Column"])[0] for row in columns} == set(element.COLUMNS)
+    needed = {
+        need: {literals(r["Column"])[0] for r in columns if r["Needed"] == need}
+        for need in ("yes", "a size")
+    }
+    assert needed == {"yes": set(element.REQUIRED), "a size": element.SIZES}
+    kinds = next(row for row in columns if row["Column"] == "`kind`")
+    assert set(literals(kinds["Value"])) == set(element.KINDS)
+
+
+def test_numbers_of_the_catalogue_are_right() -> None:
+    elements = read_catalogue().elements
+    kinds = Counter(one.kind for one in elements)
+    text = " ".join(ELEMENTS.split())
+    assert (
+        f"a file of {len(elements)}, {kinds['suction']} cups and {kinds['magnets']} magnets" in text
+    )
+    assert f"no weight of {sum(one.weight_g is None for one in elements)} of them" in text
+    assert all(one.price is None for one in elements)
+    trust = Counter(one.trust for one in elements)
+    assert {r["Trust"]: int(r["Elements"]) for r in rows(ELEMENTS, "Trust")} == trust
+    rows_and_size = f"{csv_table.MAX_ROWS:,} rows and {csv_table.MAX_FILE_BYTES // 1_000_000} MB"
+    assert rows_and_size in text
+    assert f"texts at most {element.MAX_TEXT:,} characters" in text
+    assert f"at most {element.MOST:,.0f}, texts" in text
+    assert f"up to {MAX_PROBLEMS} problems" in text
+
+
+def test_the_example_of_an_own_catalogue_is_read(tmp_path: Path) -> None:
+    block = next(
+        b for b in re.findall(r"^```\n(.*?)^```$", ELEMENTS, re.MULTILINE | re.DOTALL) if "," in b
+    )
+    path = tmp_path / "mine.csv"
+    path.write_text(block, encoding="utf-8")
+    catalogue = read_catalogue(path)
+    assert catalogue.replaced == ("SGM-HP 40",)
+    assert find(catalogue, "cup 50").price == 12.5
 
 
 # --- workbook ---

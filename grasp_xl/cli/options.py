@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from grasp_xl.errors import UsageError
+from grasp_xl.fitment.catalogue import DIAMETER_TOLERANCE_MM, Diameters
+from grasp_xl.fitment.element import Kind
 from grasp_xl.rules import TERMS, Criterion, MomentArm
 from grasp_xl.rules import moment_arm as parse_arm
 
@@ -30,6 +32,9 @@ MOST_GRID = 20
 
 MOST_DESIGNS = 1000
 """Most designs that ``solve`` lists."""
+
+KIND_WORDS: dict[str, Kind] = {"cup": "suction", "magnet": "magnets"}
+"""What ``--kind`` may say."""
 
 STARTS = ("user", "random")
 
@@ -104,6 +109,27 @@ def _word(option: str, parse: Callable[[str], T]) -> Callable[[str], T]:
             raise UsageError(f"{option}: {error.message}", where=option, hint=error.hint) from None
 
     return parse_word
+
+
+def _kind(text: str) -> Kind:
+    if text in KIND_WORDS:
+        return KIND_WORDS[text]
+    raise _refused("--kind", text, " or ".join(KIND_WORDS), "Without --kind both are listed")
+
+
+def _diameters(text: str) -> Diameters:
+    """Read a diameter, or the least and the most one joined by a hyphen."""
+    expected, hint = "a diameter in mm, or two as 30-50", "For example --diameter 46"
+    ends = [math.nan]
+    with suppress(ValueError):
+        ends = [float(end) for end in text.split("-")]
+    if not all(LEAST_ABOVE_0 <= end <= MOST for end in ends):
+        raise _refused("--diameter", text, expected, hint)
+    if len(ends) > 2 or ends != sorted(ends):
+        raise _refused("--diameter", text, expected, "Give the smaller one first")
+    if len(ends) == 2:
+        return Diameters(*ends)
+    return Diameters(ends[0] - DIAMETER_TOLERANCE_MM, ends[0] + DIAMETER_TOLERANCE_MM)
 
 
 def _start(text: str) -> str:
@@ -345,6 +371,29 @@ History = Annotated[
 InPlace = Annotated[bool, typer.Option("--in-place", help="Replace the input workbook.")]
 Force = Annotated[
     bool, typer.Option("--force", help="Overwrite what was edited; lose what cannot be kept.")
+]
+ElementKindName = Annotated[
+    Kind | None,
+    _option("--kind", _kind, "cup|magnet", "Only suction cups, or only magnets."),
+]
+MinForce = Annotated[
+    float | None,
+    _option("--min-force", _above_0("--min-force"), "N", "Only elements of this force or more."),
+]
+DiameterRange = Annotated[
+    Diameters | None,
+    _option(
+        "--diameter",
+        _diameters,
+        "MM|MM-MM",
+        f"Only this diameter, within {DIAMETER_TOLERANCE_MM:g} mm, or a range: 30-50.",
+    ),
+]
+CatalogueFile = Annotated[
+    Path | None,
+    _option(
+        "--catalogue", _file("--catalogue"), "FILE", "CSV file of elements to add to the catalogue."
+    ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on standard output.")]
 Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors.")]

@@ -13,6 +13,7 @@ import typer
 
 from grasp_xl import __version__
 from grasp_xl.cli.check import check
+from grasp_xl.cli.elements import elements
 from grasp_xl.cli.evaluate import evaluate
 from grasp_xl.cli.excel import excel
 from grasp_xl.cli.front import front
@@ -129,5 +130,5 @@ def _about(
         raise typer.Exit
 
 
-for _command in (check, new, evaluate, run, solve, front, excel):
+for _command in (check, new, evaluate, run, solve, front, excel, elements):
     app.command()(_command)

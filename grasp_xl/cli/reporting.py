@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from grasp_xl.errors import GraspError, InfeasibleError, InputError, Problem
@@ -12,6 +13,7 @@ from grasp_xl.rules import TERMS, Rules
 
 if TYPE_CHECKING:
     from grasp_xl.commands.check import Checked
+    from grasp_xl.commands.elements import Listed
     from grasp_xl.commands.excel import Buttons
     from grasp_xl.commands.front import FoundFront
     from grasp_xl.commands.run import Ran
@@ -145,6 +147,16 @@ def new_json(task: Task, output: str) -> Json:
 def excel_json(found: Buttons) -> Json:
     """Return how the buttons of a workbook find Python."""
     return {"settings": found.settings, "setting": found.name, "works": found.works}
+
+
+def elements_json(listed: Listed) -> Json:
+    """Return the elements that were asked for; null where a value is not known."""
+    return {
+        "elements": [asdict(element) for element in listed.elements],
+        "catalogue_size": len(listed.catalogue.elements),
+        "replaced": list(listed.catalogue.replaced),
+        "warnings": problems_json(listed.catalogue.warnings),
+    }
 
 
 def check_json(checked: Checked) -> Json:
