@@ -39,12 +39,13 @@ KIND_WORDS: dict[str, Kind] = {"cup": "suction", "magnet": "magnets"}
 STARTS = ("user", "random")
 
 
-def _refused(option: str, found: str, expected: str, hint: str = "") -> UsageError:
+def refused(option: str, found: str, expected: str, hint: str = "") -> UsageError:
+    """Make the error for a value that an option does not take."""
     message = f"{option}: found {found!r}, expected {expected}."
     return UsageError(message, where=option, hint=hint or f"Without {option} the default holds")
 
 
-def _number(
+def a_number(
     option: str, expected: str, *, least: float = -MOST, most: float = MOST
 ) -> Callable[[str], float]:
     """Make a parser of numbers within bounds."""
@@ -55,12 +56,12 @@ def _number(
             number = float(text)
         if least <= number <= most:
             return number
-        raise _refused(option, text, expected)
+        raise refused(option, text, expected)
 
     return parse
 
 
-def _whole(option: str, least: int, most: int = int(MOST)) -> Callable[[str], int]:
+def a_whole_number(option: str, least: int, most: int = int(MOST)) -> Callable[[str], int]:
     """Make a parser of whole numbers within bounds; ``5e4`` is one, too."""
     expected = f"a whole number from {least} to {most:,}"
 
@@ -71,7 +72,7 @@ def _whole(option: str, least: int, most: int = int(MOST)) -> Callable[[str], in
                 number = read(text)
         if least <= number <= most and number == int(number):
             return int(number)
-        raise _refused(option, text, expected)
+        raise refused(option, text, expected)
 
     return parse
 
@@ -84,18 +85,18 @@ def _indices(option: str) -> Callable[[str], tuple[int, ...]]:
             return tuple(int(word) for word in text.split(",")) if text.strip() else ()
         except ValueError:
             hint = f"For example {option} 87,64,140"
-            raise _refused(option, text, "whole numbers separated by commas", hint) from None
+            raise refused(option, text, "whole numbers separated by commas", hint) from None
 
     return parse
 
 
 def _goals(text: str) -> tuple[float, ...]:
     expected = "four numbers above 0 separated by commas"
-    goal = _number("--goals", expected, least=LEAST_ABOVE_0)
+    goal = a_number("--goals", expected, least=LEAST_ABOVE_0)
     words = text.split(",")
     if len(words) != len(TERMS):
         hint = f"Give {', '.join(TERMS)}, for example --goals 105,7933,24.5,1130"
-        raise _refused("--goals", text, expected, hint)
+        raise refused("--goals", text, expected, hint)
     return tuple(goal(word) for word in words)
 
 
@@ -114,7 +115,7 @@ def _word(option: str, parse: Callable[[str], T]) -> Callable[[str], T]:
 def _kind(text: str) -> Kind:
     if text in KIND_WORDS:
         return KIND_WORDS[text]
-    raise _refused("--kind", text, " or ".join(KIND_WORDS), "Without --kind both are listed")
+    raise refused("--kind", text, " or ".join(KIND_WORDS), "Without --kind both are listed")
 
 
 def _diameters(text: str) -> Diameters:
@@ -124,9 +125,9 @@ def _diameters(text: str) -> Diameters:
     with suppress(ValueError):
         ends = [float(end) for end in text.split("-")]
     if not all(LEAST_ABOVE_0 <= end <= MOST for end in ends):
-        raise _refused("--diameter", text, expected, hint)
+        raise refused("--diameter", text, expected, hint)
     if len(ends) > 2 or ends != sorted(ends):
-        raise _refused("--diameter", text, expected, "Give the smaller one first")
+        raise refused("--diameter", text, expected, "Give the smaller one first")
     if len(ends) == 2:
         return Diameters(*ends)
     return Diameters(ends[0] - DIAMETER_TOLERANCE_MM, ends[0] + DIAMETER_TOLERANCE_MM)
@@ -135,25 +136,27 @@ def _diameters(text: str) -> Diameters:
 def _start(text: str) -> str:
     if text in STARTS:
         return text
-    raise _refused("--start", text, " or ".join(STARTS))
+    raise refused("--start", text, " or ".join(STARTS))
 
 
-def _file(option: str) -> Callable[[str], Path]:
+def a_file(option: str) -> Callable[[str], Path]:
     """Make a parser of file names; an empty one would mean the folder."""
 
     def parse(text: str) -> Path:
         if text.strip():
             return Path(text)
-        raise _refused(option, text, "the name of a file")
+        raise refused(option, text, "the name of a file")
 
     return parse
 
 
-def _above_0(option: str) -> Callable[[str], float]:
-    return _number(option, f"a number above 0, to {MOST:g}", least=LEAST_ABOVE_0)
+def a_number_above_0(option: str) -> Callable[[str], float]:
+    """Make a parser of numbers above 0."""
+    return a_number(option, f"a number above 0, to {MOST:g}", least=LEAST_ABOVE_0)
 
 
-def _option(name: str, parser: Callable[[str], Any], metavar: str, told: str) -> Any:  # noqa: ANN401
+def with_value(name: str, parser: Callable[[str], Any], metavar: str, told: str) -> Any:  # noqa: ANN401
+    """Make an option that takes a value."""
     return typer.Option(name, parser=parser, metavar=metavar, help=told)
 
 
@@ -166,14 +169,14 @@ File = Annotated[
 ]
 Book = Annotated[
     Path,
-    typer.Option("-o", "--output", parser=_file("-o"), metavar="FILE", help="Workbook to write."),
+    typer.Option("-o", "--output", parser=a_file("-o"), metavar="FILE", help="Workbook to write."),
 ]
 MaybeBook = Annotated[
     Path | None,
     typer.Option(
         "-o",
         "--output",
-        parser=_file("-o"),
+        parser=a_file("-o"),
         metavar="FILE",
         help="Workbook to write (default NAME-result.xlsx).",
     ),
@@ -183,48 +186,50 @@ BookIfAny = Annotated[
     typer.Option(
         "-o",
         "--output",
-        parser=_file("-o"),
+        parser=a_file("-o"),
         metavar="FILE",
         help="Workbook to write (default: none).",
     ),
 ]
 Cups = Annotated[
     Sequence[int] | None,
-    _option("--cups", _indices("--cups"), "I,J,..", "Suction cup indices, from 1: 87,64,140."),
+    with_value("--cups", _indices("--cups"), "I,J,..", "Suction cup indices, from 1: 87,64,140."),
 ]
 Magnets = Annotated[
     Sequence[int] | None,
-    _option("--magnets", _indices("--magnets"), "I,J,..", "Magnet indices, from 1: 3,8."),
+    with_value("--magnets", _indices("--magnets"), "I,J,..", "Magnet indices, from 1: 3,8."),
 ]
 GoalList = Annotated[
     Sequence[float] | None,
-    _option("--goals", _goals, "C,M,D,S", "Cost, moment, deviation, structure in $, N-mm, mm, mm."),
+    with_value(
+        "--goals", _goals, "C,M,D,S", "Cost, moment, deviation, structure in $, N-mm, mm, mm."
+    ),
 ]
 Fos = Annotated[
     float | None,
-    _option("--fos", _above_0("--fos"), "NUMBER", "Least factor of safety (default 3)."),
+    with_value("--fos", a_number_above_0("--fos"), "NUMBER", "Least factor of safety (default 3)."),
 ]
 Clearance = Annotated[
     float | None,
-    _option(
+    with_value(
         "--clearance",
-        _above_0("--clearance"),
+        a_number_above_0("--clearance"),
         "MM",
         "Least distance of two elements (default: the largest diameter, else 46).",
     ),
 ]
 Density = Annotated[
     float | None,
-    _option(
+    with_value(
         "--density-ratio",
-        _number("--density-ratio", f"a number from 0 to {MOST:g}", least=0),
+        a_number("--density-ratio", f"a number from 0 to {MOST:g}", least=0),
         "NUMBER",
         "Main truss over branch density (default 2.5).",
     ),
 ]
 CriterionName = Annotated[
     Criterion | None,
-    _option(
+    with_value(
         "--criterion",
         _word("--criterion", Criterion.parse),
         "WORD",
@@ -233,7 +238,7 @@ CriterionName = Annotated[
 ]
 Arm = Annotated[
     MomentArm | None,
-    _option(
+    with_value(
         "--moment-arm",
         _word("--moment-arm", parse_arm),
         "3d|plan",
@@ -242,25 +247,33 @@ Arm = Annotated[
 ]
 Seed = Annotated[
     int | None,
-    _option(
-        "--seed", _whole("--seed", 0, MOST_SEED), "N", "Seed of the random stream (default 1)."
+    with_value(
+        "--seed",
+        a_whole_number("--seed", 0, MOST_SEED),
+        "N",
+        "Seed of the random stream (default 1).",
     ),
 ]
 GenerationCount = Annotated[
     int | None,
-    _option("--generations", _whole("--generations", 0), "N", "Generations (default 50000)."),
+    with_value(
+        "--generations", a_whole_number("--generations", 0), "N", "Generations (default 50000)."
+    ),
 ]
 Children = Annotated[
     int | None,
-    _option(
-        "--children", _whole("--children", 2, MOST_CHILDREN), "N", "Children each (default 5)."
+    with_value(
+        "--children",
+        a_whole_number("--children", 2, MOST_CHILDREN),
+        "N",
+        "Children each (default 5).",
     ),
 ]
 OneIn = Annotated[
     float | None,
-    _option(
+    with_value(
         "--one-in",
-        _number("--one-in", f"a number from 1 to {MOST:g}", least=1),
+        a_number("--one-in", f"a number from 1 to {MOST:g}", least=1),
         "N",
         "n of the 1-in-n mutation probability (default 4).",
     ),
@@ -268,17 +281,19 @@ OneIn = Annotated[
 NoElitism = Annotated[bool, typer.Option("--no-elitism", help="Mutate child 1 too.")]
 Start = Annotated[
     str | None,
-    _option("--start", _start, "user|random", "The initial chromosome (default user)."),
+    with_value("--start", _start, "user|random", "The initial chromosome (default user)."),
 ]
 StallCount = Annotated[
     int | None,
-    _option("--stall", _whole("--stall", 1), "N", "Stop after so many generations without gain."),
+    with_value(
+        "--stall", a_whole_number("--stall", 1), "N", "Stop after so many generations without gain."
+    ),
 ]
 TargetValue = Annotated[
     float | None,
-    _option(
+    with_value(
         "--target",
-        _number("--target", f"a number of at most {MOST:g}"),
+        a_number("--target", f"a number of at most {MOST:g}"),
         "VALUE",
         "Stop when the best value is at or below this.",
     ),
@@ -288,7 +303,7 @@ MaybeSolved = Annotated[
     typer.Option(
         "-o",
         "--output",
-        parser=_file("-o"),
+        parser=a_file("-o"),
         metavar="FILE",
         help="Workbook to write (default none).",
     ),
@@ -299,49 +314,49 @@ Prove = Annotated[
 ]
 ProveSeconds = Annotated[
     float,
-    _option(
+    with_value(
         "--prove-limit",
-        _number("--prove-limit", f"a number from 0 to {MOST:g}", least=0),
+        a_number("--prove-limit", f"a number from 0 to {MOST:g}", least=0),
         "SECONDS",
         "Longest search for that proof.",
     ),
 ]
 Seconds = Annotated[
     float | None,
-    _option(
+    with_value(
         "--time-limit",
-        _number("--time-limit", f"a number from 0 to {MOST:g}", least=0),
+        a_number("--time-limit", f"a number from 0 to {MOST:g}", least=0),
         "SECONDS",
         "Stop after so many seconds of search.",
     ),
 ]
 FrontSeconds = Annotated[
     float,
-    _option(
+    with_value(
         "--time-limit",
-        _number("--time-limit", f"a number from 0 to {MOST:g}", least=0),
+        a_number("--time-limit", f"a number from 0 to {MOST:g}", least=0),
         "SECONDS",
         "Stop after so many seconds of search (default 30).",
     ),
 ]
 Grid = Annotated[
     int,
-    _option(
+    with_value(
         "--grid",
-        _whole("--grid", 1, MOST_GRID),
+        a_whole_number("--grid", 1, MOST_GRID),
         "N",
         "Steps of the weights from 0 to 1 (default 4: 35 weighted sums).",
     ),
 ]
 DesignCount = Annotated[
     int,
-    _option("--top", _whole("--top", 1, MOST_DESIGNS), "K", "List the K best grasps."),
+    with_value("--top", a_whole_number("--top", 1, MOST_DESIGNS), "K", "List the K best grasps."),
 ]
 Gap = Annotated[
     float,
-    _option(
+    with_value(
         "--gap",
-        _number("--gap", f"a number from 0 to {MOST:g}", least=0),
+        a_number("--gap", f"a number from 0 to {MOST:g}", least=0),
         "NUMBER",
         "Stop within this fraction of the best value; 0 proves it.",
     ),
@@ -349,9 +364,9 @@ Gap = Annotated[
 MeetGoals = Annotated[bool, typer.Option("--meet-goals", help="Only grasps that meet all goals.")]
 LeastElements = Annotated[
     int,
-    _option(
+    with_value(
         "--min-elements",
-        _whole("--min-elements", 1),
+        a_whole_number("--min-elements", 1),
         "N",
         "Only grasps of N or more elements.",
     ),
@@ -361,9 +376,9 @@ GoOn = Annotated[
 ]
 History = Annotated[
     Path | None,
-    _option(
+    with_value(
         "--history",
-        _file("--history"),
+        a_file("--history"),
         "FILE",
         "Write every change of the fittest to this CSV file.",
     ),
@@ -374,15 +389,17 @@ Force = Annotated[
 ]
 ElementKindName = Annotated[
     Kind | None,
-    _option("--kind", _kind, "cup|magnet", "Only suction cups, or only magnets."),
+    with_value("--kind", _kind, "cup|magnet", "Only suction cups, or only magnets."),
 ]
 MinForce = Annotated[
     float | None,
-    _option("--min-force", _above_0("--min-force"), "N", "Only elements of this force or more."),
+    with_value(
+        "--min-force", a_number_above_0("--min-force"), "N", "Only elements of this force or more."
+    ),
 ]
 DiameterRange = Annotated[
     Diameters | None,
-    _option(
+    with_value(
         "--diameter",
         _diameters,
         "MM|MM-MM",
@@ -391,8 +408,11 @@ DiameterRange = Annotated[
 ]
 CatalogueFile = Annotated[
     Path | None,
-    _option(
-        "--catalogue", _file("--catalogue"), "FILE", "CSV file of elements to add to the catalogue."
+    with_value(
+        "--catalogue",
+        a_file("--catalogue"),
+        "FILE",
+        "CSV file of elements to add to the catalogue.",
     ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on standard output.")]

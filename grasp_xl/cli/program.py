@@ -16,6 +16,7 @@ from grasp_xl.cli.check import check
 from grasp_xl.cli.elements import elements
 from grasp_xl.cli.evaluate import evaluate
 from grasp_xl.cli.excel import excel
+from grasp_xl.cli.fit import fit
 from grasp_xl.cli.front import front
 from grasp_xl.cli.new import new
 from grasp_xl.cli.run import run
@@ -130,5 +131,5 @@ def _about(
         raise typer.Exit
 
 
-for _command in (check, new, evaluate, run, solve, front, excel, elements):
+for _command in (check, new, evaluate, run, solve, front, fit, elements, excel):
     app.command()(_command)

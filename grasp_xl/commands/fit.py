@@ -1,0 +1,209 @@
+"""How ``fit`` makes the exported sheet of a part."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from grasp_xl.errors import UsageError
+from grasp_xl.fitment.catalogue import Catalogue, find, read_catalogue
+from grasp_xl.fitment.element import Element, Kind
+from grasp_xl.fitment.face_picture import face_picture
+from grasp_xl.fitment.fitting import Choice, Fitment, Fitted, fit
+from grasp_xl.fitment.material import MATERIALS, USUAL, Material
+from grasp_xl.fitment.part import CadPart
+from grasp_xl.fitment.part_file import Reading, read_part
+from grasp_xl.space import FloatArray
+from grasp_xl.workbook.saving import check_place, check_target, save
+from grasp_xl.workbook.writing import export_workbook
+
+PICTURE_SUFFIX = ".svg"
+
+CUP, MAGNET = "cup", "magnet"
+"""How options begin that are about one kind."""
+
+
+USUAL_COUNT = (1, 5)
+"""Fewest and most elements of a kind (section 4.1)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What a designer asked for of one kind.
+
+    Parameters
+    ----------
+    name : str
+        Model or part number.
+    price : float or None
+        Of one ($); None: as the catalogue says.
+    faces : str
+    count : sequence of int
+        Fewest and most of a grasp.
+    angle_deg : float
+    """
+
+    name: str
+    price: float | None
+    faces: str
+    count: Sequence[int]
+    angle_deg: float
+
+
+@dataclass(frozen=True, slots=True)
+class Mass:
+    """How the mass of a part is known: itself (g), else a density (g/cm^3), else its material."""
+
+    material: Material | None
+    density_g_cm3: float | None = None
+    mass_g: float | None = None
+
+    def of(self, part: CadPart) -> float:
+        """Return the mass of a part (g)."""
+        if self.mass_g is not None:
+            return self.mass_g
+        density = self.density_g_cm3 or (self.material or MATERIALS[USUAL]).density_g_cm3
+        return part.volume_mm3 * density / 1000
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """All that a designer says to ``fit``.
+
+    Parameters
+    ----------
+    path : Path
+        STEP or DXF file.
+    reading : Reading
+    mass : Mass
+    cup, magnet : Wanted or None
+    catalogue : Path or None
+        The designer's own elements.
+    pitch_mm : float
+    polygon : str or FloatArray
+    scale_factor : float
+    min_overlap : float
+        Of magnets.
+    """
+
+    path: Path
+    reading: Reading
+    mass: Mass
+    cup: Wanted | None
+    magnet: Wanted | None
+    catalogue: Path | None
+    pitch_mm: float
+    polygon: str | FloatArray
+    scale_factor: float
+    min_overlap: float
+
+
+@dataclass(frozen=True, slots=True)
+class FittedPart:
+    """What was fitted, and from what."""
+
+    part: CadPart
+    fitted: Fitted
+
+
+def fit_file(request: Request, output: Path, *, force: bool) -> FittedPart:
+    """Fit elements on a part, and write its exported sheet.
+
+    Raises
+    ------
+    UsageError, InputError
+        If something that was asked for cannot be.
+    OutputError
+        If the sheet cannot be written.
+    """
+    check_target(output, request.path, in_place=False, force=force)
+    fitment = _fitment(request)
+    part = read_part(request.path, request.reading)
+    fitted = fit(part, fitment, request.mass.of(part))
+    save(export_workbook(fitted.space).content, output)
+    return FittedPart(part, fitted)
+
+
+def list_faces(path: Path, reading: Reading, picture: Path, *, force: bool) -> CadPart:
+    """Read a part, and draw its faces.
+
+    Raises
+    ------
+    UsageError, InputError, OutputError
+        If it cannot be read, or the picture not written.
+    """
+    check_place(picture, [PICTURE_SUFFIX], force=force, option="--picture")
+    part = read_part(path, reading)
+    save(face_picture(part).encode(), picture)
+    return part
+
+
+def _fitment(request: Request) -> Fitment:
+    """Look up the elements, before the part is read.
+
+    Raises
+    ------
+    UsageError
+        If there is no such element, it is of the other kind, cannot hold the part, or its price
+        is not known.
+    """
+    catalogue = read_catalogue(request.catalogue)
+    if request.cup is None and request.magnet is None:
+        raise UsageError(
+            "No element was chosen.",
+            hint="Name one with --cup or --magnet, or one with each; see grasp-xl elements",
+        )
+    material = request.mass.material
+    if request.magnet and material and not material.is_magnetic:
+        holding = [name for name, each in MATERIALS.items() if each.is_magnetic]
+        raise UsageError(
+            f"Magnets do not hold {material.name}.",
+            where="--magnet",
+            hint=f"Leave --magnet out, or give --material {' or '.join(holding)}",
+        )
+    cup = _choice(catalogue, request.cup, "suction", 0.0)
+    magnet = _choice(catalogue, request.magnet, "magnets", request.min_overlap)
+    return Fitment(cup, magnet, request.pitch_mm, request.polygon, request.scale_factor)
+
+
+def _choice(
+    catalogue: Catalogue, wanted: Wanted | None, kind: Kind, min_overlap: float
+) -> Choice | None:
+    if wanted is None:
+        return None
+    word, other = (CUP, MAGNET) if kind == "suction" else (MAGNET, CUP)
+    element = find(catalogue, wanted.name)
+    if element.kind != kind:
+        raise UsageError(
+            f"--{word}: {element.model!r} is a {other}.",
+            where=f"--{word}",
+            hint=f"See grasp-xl elements --kind {word}",
+        )
+    return Choice(
+        element,
+        _price(element, wanted, word),
+        wanted.faces,
+        wanted.count[0],
+        wanted.count[-1],
+        wanted.angle_deg,
+        min_overlap,
+    )
+
+
+def _price(element: Element, wanted: Wanted, word: str) -> float:
+    if wanted.price is not None:
+        return wanted.price
+    if element.price is None:
+        raise UsageError(
+            f"The price of {element.model!r} is not known.",
+            where=f"--{word}-price",
+            hint=f"Give it, for example --{word}-price 10",
+        )
+    return element.price
+
+
+def sha256_of(path: Path) -> str:
+    """Return the SHA-256 of a file."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
