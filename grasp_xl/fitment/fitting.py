@@ -261,15 +261,13 @@ def _polygon(part: CadPart, choice: str | FloatArray) -> FloatArray:
 
 def _out_of_sight(part: CadPart, space: OptionSpace) -> list[Problem]:
     """Return a note of places that the outline hides from the centroid (section 3.2)."""
+    hint = "the deviation says little about bending there (thesis, section 3.2)"
+    if not in_sight(part, part.centroid_mm[None, :])[0]:
+        found = "a centroid outside the part's outline"
+        return [Problem(part.name, found, "it inside, in sight of all places", hint)]
     places = np.concatenate([kind.footprints_mm for kind in space.kinds])
     hidden = int(np.count_nonzero(~in_sight(part, places)))
     if not hidden:
         return []
-    return [
-        Problem(
-            part.name,
-            f"{hidden:,} of {len(places):,} places that the outline hides from the centroid",
-            "a straight way inside the outline from the centroid to each",
-            "the deviation says little about bending there (thesis, section 3.2)",
-        )
-    ]
+    found = f"{hidden:,} of {len(places):,} places that the outline hides from the centroid"
+    return [Problem(part.name, found, "a straight way inside the outline to each", hint)]
