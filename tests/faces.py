@@ -25,7 +25,9 @@ def flat_part(*faces: Face, plan: Polygon | None = None, thickness_mm: float = 2
     )
     whole = shapely.union_all([face.outline for face in faces])
     centroid = frozen(middle / area)
-    return CadPart("part.step", area * thickness_mm, centroid, in_order(faces), plan or whole)
+    return CadPart(
+        "part.step", "0" * 64, area * thickness_mm, centroid, in_order(faces), plan or whole
+    )
 
 
 def random_face(seed: int) -> Polygon:

@@ -14,15 +14,16 @@ import pytest
 from office import Office
 
 from grasp_xl.cli.program import main
-from grasp_xl.macros import FULL, project
+from grasp_xl.macros import project
 from grasp_xl.workbook.book import read_book
-from grasp_xl.workbook.layout import CONFIGURATION
+from grasp_xl.workbook.layout import CONFIGURATION, SHEETS
 from grasp_xl.workbook.macros import BUTTONS, SETTINGS
 from grasp_xl.workbook.stamp import is_untouched
 
 SAMPLE = Path(__file__).parents[1] / "workbooks" / "bracket.xlsx"
 SHORT = ("--generations", "20", "--no-prove", "--quiet")
-PART = f"xl/worksheets/sheet{len(FULL)}.xml"
+FULL = len(SHEETS) + 1
+PART = f"xl/worksheets/sheet{FULL}.xml"
 """Of the sheet with the settings."""
 
 

@@ -7,7 +7,6 @@ import re
 import tomllib
 import warnings
 import zipfile
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,17 +16,24 @@ from npm import complaints
 from office import Office
 
 from grasp_xl.cli.program import main
-from grasp_xl.macros import FULL, MODULES, PROJECTS, WITH_TRADE_OFFS, project
+from grasp_xl.macros import MODULES, PROJECTS, project
 from grasp_xl.macros.build import build
+from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.layout import SHEETS
+from grasp_xl.workbook.part_sheet import PartRecord
+from grasp_xl.workbook.writing import export_workbook
 
 ROOT = Path(__file__).parent.parent
 PYPROJECT, SAMPLE = ROOT / "pyproject.toml", ROOT / "workbooks" / "bracket.xlsx"
 SOURCES = {path.stem: path.read_bytes().decode("ascii") for path in MODULES}
+FULL = len(SHEETS) + 1
+"""Sheets of a workbook with macros and without an occasional one."""
 DIGESTS = {
     FULL: "4fbc2ea98d167880321e2f75a73f3bc9adb02abc53d795791442a344f76d09b5",
-    WITH_TRADE_OFFS: "8717f09f95b2a2e122ed7dc5e1f7855391d9c660604017c8968cc4ed9d9c9f46",
+    FULL + 1: "8717f09f95b2a2e122ed7dc5e1f7855391d9c660604017c8968cc4ed9d9c9f46",
+    FULL + 2: "ec2dc306ce3b137cb9ef09219f0293a356b4422cb661b1028cdc6ffbe3c89890",
 }
+RECORD = PartRecord((("Source file", "part.step"),), ())
 MACROS = {"CheckGrasp": "check", "RunGrasp": "run", "ProveGrasp": "prove", "StopGrasp": "stop"}
 
 LIBRARY = "VBAProject"
@@ -43,7 +49,7 @@ CLASS_FILE = re.compile(r"VERSION 1\.0 CLASS\r\nBEGIN\r\n.*?\r\nEND\r\n", re.DOT
 CLASS_BASE = 'Attribute VB_Base = "0{FCFB3D2A-A0FA-1068-A738-08002B3371B5}"\r\n'
 """What the source of a class has in a project and not in a file."""
 
-every_project = pytest.mark.parametrize("sheets", PROJECTS, ids=["full", "trade-offs"])
+every_project = pytest.mark.parametrize("sheets", PROJECTS, ids=str)
 
 
 def opened(content: bytes) -> Any:
@@ -55,9 +61,9 @@ def opened(content: bytes) -> Any:
     return VBA_Parser(LIBRARY, data=content)
 
 
-def documents(sheets: Sequence[str]) -> list[str]:
+def documents(sheets: int) -> list[str]:
     """Names of the modules that belong to the workbook and to its sheets."""
-    return ["ThisWorkbook", *(f"Sheet{number + 1}" for number in range(len(sheets)))]
+    return ["ThisWorkbook", *(f"Sheet{number + 1}" for number in range(sheets))]
 
 
 def without_attributes(source: str) -> list[str]:
@@ -67,18 +73,20 @@ def without_attributes(source: str) -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def books(tmp_path_factory: pytest.TempPathFactory) -> dict[Sequence[str], Path]:
-    """Make a workbook with macros for each project, as a person does."""
+def books(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Path]:
+    """Make a workbook with macros for each project, as a person does: plain, fitted, with front."""
     folder = tmp_path_factory.mktemp("macros")
-    full, with_trade_offs = folder / "full.xlsm", folder / "trade-offs.xlsm"
-    assert main(["new", str(SAMPLE), "-o", str(full), "--quiet"]) == 0
-    front = ["front", str(SAMPLE), "-o", str(with_trade_offs), "--grid", "1", "--quiet"]
-    assert main(front) == 0
-    return {FULL: full, WITH_TRADE_OFFS: with_trade_offs}
+    full, fitted, front = (folder / f"{name}.xlsm" for name in ("full", "fitted", "front"))
+    export = folder / "export.xlsx"
+    export.write_bytes(export_workbook(read_book(SAMPLE).space, RECORD).content)
+    for made, source in ((full, SAMPLE), (fitted, export)):
+        assert main(["new", str(source), "-o", str(made), "--quiet"]) == 0
+    assert main(["front", str(fitted), "-o", str(front), "--grid", "1", "--quiet"]) == 0
+    return {FULL: full, FULL + 1: fitted, FULL + 2: front}
 
 
 @pytest.fixture
-def book(sheets: Sequence[str], books: dict[Sequence[str], Path]) -> Path:
+def book(sheets: int, books: dict[int, Path]) -> Path:
     """Return the workbook with these sheets."""
     return books[sheets]
 
@@ -158,10 +166,10 @@ def test_project_has_no_compiled_code(sheets):
     assert stream == b"\xcc\x61\xff\xff\x00\x00\x00"
 
 
-@pytest.mark.parametrize("sheets", [SHEETS, FULL[::-1], ()], ids=["no settings", "order", "none"])
-def test_other_sheets_have_no_project(sheets):
-    """A project is for its sheets, in their order; for others there is none."""
-    with pytest.raises(ValueError, match="no VBA project for the sheets"):
+@pytest.mark.parametrize("sheets", [0, FULL - 1, FULL + 3])
+def test_another_number_of_sheets_has_no_project(sheets):
+    """A project is for so many sheets; for fewer or more there is none."""
+    with pytest.raises(ValueError, match=f"no VBA project for {sheets} sheets"):
         project(sheets)
 
 
@@ -173,7 +181,7 @@ def test_code_names_are_those_of_the_documents(sheets, book):
     """Workbook and sheets have the names that the document modules have."""
     with zipfile.ZipFile(book) as parts:
         assert parts.read("xl/vbaProject.bin") == project(sheets)
-        names = ["workbook", *(f"worksheets/sheet{number + 1}" for number in range(len(sheets)))]
+        names = ["workbook", *(f"worksheets/sheet{number + 1}" for number in range(sheets))]
         texts = [parts.read(f"xl/{name}.xml").decode() for name in names]
     found = [re.findall('<(?:workbook|sheet)Pr [^>]*codeName="(.+?)"', text) for text in texts]
     assert found == [[name] for name in documents(sheets)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,11 +12,13 @@ from grasp_xl.fitment.element import Element, Kind
 from grasp_xl.fitment.face_picture import face_picture
 from grasp_xl.fitment.fitting import Choice, Fitment, Fitted, fit
 from grasp_xl.fitment.material import MATERIALS, USUAL, Material
-from grasp_xl.fitment.part import CadPart
+from grasp_xl.fitment.part import CadPart, in_order, rings_of
 from grasp_xl.fitment.part_file import Reading, read_part
 from grasp_xl.space import FloatArray
+from grasp_xl.workbook.part_sheet import WHOLE, FaceOutline, PartRecord
 from grasp_xl.workbook.saving import check_place, check_target, save
 from grasp_xl.workbook.writing import export_workbook
+from grasp_xl.workbook.written import CellValue
 
 PICTURE_SUFFIX = ".svg"
 
@@ -122,8 +123,47 @@ def fit_file(request: Request, output: Path, *, force: bool) -> FittedPart:
     fitment = _fitment(request)
     part = read_part(request.path, request.reading)
     fitted = fit(part, fitment, request.mass.of(part))
-    save(export_workbook(fitted.space).content, output)
+    save(export_workbook(fitted.space, _record(request, part, fitted)).content, output)
     return FittedPart(part, fitted)
+
+
+def _record(request: Request, part: CadPart, fitted: Fitted) -> PartRecord:
+    """Return what the sheet ``Part`` says: nothing that depends on the time or the computer."""
+    mass, reading = request.mass, request.reading
+    material = mass.material or (None if mass.density_g_cm3 or mass.mass_g else MATERIALS[USUAL])
+    facts: list[tuple[str, CellValue]] = [
+        ("Source file", request.path.name),
+        ("SHA-256", part.sha256),
+        ("Part of the file", reading.part),
+        ("Axis that looks up", reading.up),
+        ("Units", reading.units),
+        ("Sheet thickness (mm)", reading.thickness_mm),
+        ("Volume (mm3)", part.volume_mm3),
+        ("Material", material.name if material else None),
+        ("Density (g/cm3)", mass.density_g_cm3),
+        ("Mass given (g)", mass.mass_g),
+        ("Pitch (mm)", request.pitch_mm),
+        ("Polygon", request.polygon if isinstance(request.polygon, str) else "given"),
+    ]
+    for word, wanted in ((CUP, request.cup), (MAGNET, request.magnet)):
+        if wanted:
+            facts.append((f"{word.capitalize()} faces", wanted.faces))
+    if request.min_overlap:
+        facts.append(("Least overlap of a magnet", request.min_overlap))
+    faces = dict.fromkeys((*fitted.cup_faces, *fitted.magnet_faces))
+    outlines = [FaceOutline(WHOLE, None, part.plan.area, "", rings_of(part.plan))]
+    for number, face in enumerate(in_order(faces), 1):
+        uses = [
+            kind.name
+            for kind, on in zip(
+                fitted.space.kinds, (fitted.cup_faces, fitted.magnet_faces), strict=True
+            )
+            if face in on
+        ]
+        area, rings = face.outline.area, rings_of(face.outline)
+        outlines.append(FaceOutline(number, face.height_mm, area, ", ".join(uses), rings))
+    known = ((label, value) for label, value in facts if value is not None)
+    return PartRecord(tuple(known), tuple(outlines))
 
 
 def list_faces(path: Path, reading: Reading, picture: Path, *, force: bool) -> CadPart:
@@ -202,8 +242,3 @@ def _price(element: Element, wanted: Wanted, word: str) -> float:
             hint=f"Give it, for example --{word}-price 10",
         )
     return element.price
-
-
-def sha256_of(path: Path) -> str:
-    """Return the SHA-256 of a file."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()

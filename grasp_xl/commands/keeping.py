@@ -115,7 +115,7 @@ def _lost(target: Path, lost: list[str]) -> list[Problem]:
 def as_written(book: Book) -> Written:
     """Write a workbook again as it was, with its own cards and results, to know what is ours."""
     if find_ga_sheet(book.source) is None:  # an export
-        return Written(export_workbook(book.space), same_inputs=False)
+        return Written(export_workbook(book.space, book.part), same_inputs=False)
     task = _task_of_its_run(book)
     same_inputs = task is not None
     was = replace(book, what_if=None) if task else _of_its_sizes(book)

@@ -68,6 +68,7 @@ def written_book(
         set_aside=book.set_aside,
         proved=proved,
         trade_offs=trade_offs,
+        part=book.part,
         macros=macros,
     )
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from xml.sax.saxutils import escape
 
 import shapely
-from shapely import Polygon
-from shapely.geometry.base import BaseGeometry
+from shapely import MultiPolygon, Polygon
 
-from grasp_xl.fitment.part import CadPart
+from grasp_xl.fitment.part import CadPart, rings_of
 
 MARGIN = 0.04
 """Around the part, as a part of its larger side; so is the size of the numbers."""
@@ -42,12 +41,9 @@ def face_picture(part: CadPart) -> str:
     return "\n".join([*lines, "</g></svg>", ""])
 
 
-def _path(geometry: BaseGeometry) -> str:
+def _path(area: Polygon | MultiPolygon) -> str:
     """Return the rings of polygons as SVG draws them: its y-axis looks down."""
-    rings = []
-    for piece in shapely.get_parts(geometry):
-        if isinstance(piece, Polygon):
-            for ring in (piece.exterior, *piece.interiors):
-                points = " L".join(f"{x:.3f},{-y:.3f}" for x, y in ring.coords[:-1])
-                rings.append(f"M{points} Z")
-    return " ".join(rings)
+    return " ".join(
+        "M" + " L".join(f"{x:.3f},{-y:.3f}" for x, y in ring.tolist()) + " Z"
+        for ring in rings_of(area)
+    )

@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+import shapely
 from shapely import MultiPolygon, Polygon
 
 from grasp_xl.errors import Problem
-from grasp_xl.space import FloatArray
+from grasp_xl.space import FloatArray, frozen
 
 HEIGHT_DECIMALS = 6
 """Faces whose heights agree to so many decimals of a millimetre are level with each other."""
@@ -40,6 +41,8 @@ class CadPart:
     ----------
     name : str
         Of its file.
+    sha256 : str
+        Of its file.
     volume_mm3 : float
     centroid_mm : FloatArray
         ``(3,)`` centroid of the solid.
@@ -52,6 +55,7 @@ class CadPart:
     """
 
     name: str
+    sha256: str
     volume_mm3: float
     centroid_mm: FloatArray
     faces: tuple[Face, ...]
@@ -68,3 +72,12 @@ def in_order(faces: Iterable[Face]) -> tuple[Face, ...]:
         return -round(face.height_mm, HEIGHT_DECIMALS), -middle[0], -middle[1]
 
     return tuple(sorted(faces, key=key))
+
+
+def rings_of(area: Polygon | MultiPolygon) -> tuple[FloatArray, ...]:
+    """Return the corners of all outlines and holes, ``(n, 2)`` (mm) each."""
+    return tuple(
+        frozen(shapely.get_coordinates(ring)[:-1])
+        for piece in shapely.get_parts(area)
+        for ring in (piece.exterior, *piece.interiors)
+    )

@@ -8,30 +8,24 @@ projects of them, which are package data, so that a user's machine needs no tool
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
-from grasp_xl.workbook.layout import CONFIGURATION, SHEETS, TRADE_OFFS, VALID_DESIGNS
+from grasp_xl.workbook.layout import OCCASIONAL, SHEETS
 
 MODULES = tuple(
     Path(__file__).with_name(name) for name in ("xlwings.bas", "Dictionary.cls", "GraspXL.bas")
 )
 """Sources of the modules with code, in the order in which a project has them."""
 
-_BEHIND_DESIGNS = SHEETS.index(VALID_DESIGNS) + 1
-
-FULL = (*SHEETS, CONFIGURATION)
-WITH_TRADE_OFFS = (*SHEETS[:_BEHIND_DESIGNS], TRADE_OFFS, *SHEETS[_BEHIND_DESIGNS:], CONFIGURATION)
-
 PROJECTS = {
-    FULL: Path(__file__).with_name("full.bin"),
-    WITH_TRADE_OFFS: Path(__file__).with_name("trade_offs.bin"),
+    count: Path(__file__).with_name(f"sheets{count}.bin")
+    for count in range(len(SHEETS) + 1, len((*SHEETS, *OCCASIONAL)) + 2)
 }
-"""The projects that there are, by the sheets of their workbook."""
+"""The projects that there are, by the number of sheets: with settings, and with each other one."""
 
 
-def project(sheets: Sequence[str]) -> bytes:
-    """Return the VBA project of a workbook with these sheets.
+def project(sheets: int) -> bytes:
+    """Return the VBA project of a workbook with so many sheets.
 
     Its document modules are ``ThisWorkbook`` and ``Sheet1``, ``Sheet2``, ... in the order of the
     sheets: the code names that XlsxWriter's ``set_vba_name()`` gives.
@@ -39,12 +33,10 @@ def project(sheets: Sequence[str]) -> bytes:
     Raises
     ------
     ValueError
-        If no project is made for these sheets.
+        If no project is made for so many.
     """
-    path = PROJECTS.get(tuple(sheets))
+    path = PROJECTS.get(sheets)
     if path is None:
-        found, *known = (", ".join(names) for names in (sheets, *PROJECTS))
-        raise ValueError(
-            f"no VBA project for the sheets {found}; there is one for {' or '.join(known)}"
-        )
+        known = " or ".join(map(str, PROJECTS))
+        raise ValueError(f"no VBA project for {sheets} sheets; there is one for {known}")
     return path.read_bytes()

@@ -19,9 +19,11 @@ from grasp_xl.workbook.inputs import genes_of_text, genes_text
 from grasp_xl.workbook.layout import Area, Field
 from grasp_xl.workbook.macros import Macros, read_macros
 from grasp_xl.workbook.package import Package, read_package
+from grasp_xl.workbook.part_sheet import PartRecord
 from grasp_xl.workbook.picker import DESIGN_PICK, TRADE_OFF_PICK, Picker, Picks
 from grasp_xl.workbook.reading import read_option_space
 from grasp_xl.workbook.reading_ga import find_block, find_ga_sheet, read_chromosome, read_parameters
+from grasp_xl.workbook.reading_part import read_part_record
 from grasp_xl.workbook.reading_pick import read_picks
 from grasp_xl.workbook.reading_run import (
     UNREADABLE,
@@ -59,6 +61,8 @@ class Book:
         The list of the sheet ``Trade-offs``, as it was written.
     set_aside : SetAside
         Genes of the designer that the option space does not have.
+    part : PartRecord or None
+        What the sheet ``Part`` says.
     """
 
     source: Source
@@ -71,6 +75,7 @@ class Book:
     picks: Picks
     trade_offs: TradeOffs | None
     set_aside: SetAside
+    part: PartRecord | None
 
     @property
     def warnings(self) -> tuple[Problem, ...]:
@@ -151,7 +156,7 @@ def book_of(source: Source, package: Package | None = None, *, stale_genes: bool
     """
     parameters = read_parameters(source)
     picks = read_picks(source)
-    trade_offs = read_trade_offs(source)
+    trade_offs, part = read_trade_offs(source), read_part_record(source)
     space = read_option_space(source)  # last: if it cannot be read, all problems are named
 
     def typed(block: Field) -> Chromosome | None:
@@ -185,6 +190,7 @@ def book_of(source: Source, package: Package | None = None, *, stale_genes: bool
         usable,
         trade_offs,
         set_aside,
+        part,
     )
 
 

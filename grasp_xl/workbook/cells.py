@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import NamedTuple, Protocol
 
 from grasp_xl.errors import Problem, refuse
-from grasp_xl.workbook.layout import CONFIGURATION, SHEETS, TRADE_OFFS, Area, Field, area_of
+from grasp_xl.workbook.layout import CONFIGURATION, OCCASIONAL, SHEETS, Area, Field, area_of
 from grasp_xl.workbook.package import MAX_ROWS
 
 MAX_NUMBER = 1e9
@@ -150,7 +150,9 @@ class Source:
     @property
     def foreign_sheets(self) -> list[str]:
         """Sheets that are none of ours."""
-        return [sheet for sheet in self.sheets if sheet not in (*SHEETS, TRADE_OFFS, CONFIGURATION)]
+        return [
+            sheet for sheet in self.sheets if sheet not in (*SHEETS, *OCCASIONAL, CONFIGURATION)
+        ]
 
     def grid(self, sheet: str, *, formulas: bool = False, rows: int = MAX_ROWS) -> Grid:
         """Return the values (or formulas) of a sheet or of its first rows, read once."""

@@ -24,6 +24,12 @@ SHEETS = (OPTION_SPACE, GA, VALID_DESIGNS, FITNESS_TABLE, HISTORY, GRASP, RUN_LO
 TRADE_OFFS = "Trade-offs"
 """Sheet of the workbooks that ``front`` writes, behind the valid designs."""
 
+PART_SHEET = "Part"
+"""Sheet of the workbooks whose option space ``fit`` made, behind it."""
+
+OCCASIONAL = (PART_SHEET, TRADE_OFFS)
+"""Sheets that some full workbooks have."""
+
 CONFIGURATION = "xlwings.conf"
 """Sheet in which the buttons of a workbook with macros find their settings: its last."""
 

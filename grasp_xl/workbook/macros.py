@@ -93,7 +93,7 @@ def this_interpreter() -> dict[str, str]:
 
 def add_macros(book: Any, pens: Sequence[Pen], macros: Macros) -> None:  # noqa: ANN401 (untyped library)
     """Give a workbook its VBA project, and each sheet the name by which that knows it."""
-    content = macros.project or project([pen.name for pen in pens])
+    content = macros.project or project(len(pens))
     if macros.signature:
         signature = io.BytesIO(macros.signature)
         book.add_signed_vba_project(io.BytesIO(content), signature, True, True)  # noqa: FBT003 (streams)

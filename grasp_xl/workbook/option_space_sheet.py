@@ -32,8 +32,9 @@ def write_option_space(pen: Pen, space: OptionSpace, *, live: bool) -> None:
     _polygon(pen, space, live=live)
     if live:
         _approximation(pen, space)
-        _details(pen, space)
         guide_option_space(pen, space)
+    if live or _knows_elements(space):
+        _details(pen, space, live=live)
     _look(pen, space, live=live)
 
 
@@ -47,6 +48,7 @@ def _look(pen: Pen, space: OptionSpace, *, live: bool) -> None:
     last = layout.POLYGON_COLUMN + 3
     if live:
         pen.widths(layout.APPROXIMATION_COLUMN, 5, 11, 11, 11, 3)
+    if live or _knows_elements(space):
         pen.widths(layout.DETAIL_COLUMN, 26, 24)
         last = layout.DETAIL_COLUMN + 1
     places = layout.FIRST_LOCATION_ROW + max(kind.total for kind in space.kinds)
@@ -150,18 +152,26 @@ def _approximation(pen: Pen, space: OptionSpace) -> None:
     pen.name_area(layout.APPROXIMATION_POLYGON, area)
 
 
-def _details(pen: Pen, space: OptionSpace) -> None:
+def _knows_elements(space: OptionSpace) -> bool:
+    """Tell whether there is more to say of the elements than CAD exports."""
+    return any(kind.diameter_mm is not None or kind.model for kind in space.kinds)
+
+
+def _details(pen: Pen, space: OptionSpace, *, live: bool) -> None:
     rows: list[tuple[layout.Field, CellValue]] = []
     for labels, kind in zip(layout.KINDS, space.kinds, strict=True):
         rows += _kind_details(labels, kind.diameter_mm, kind.model)
     for row, (field, value) in enumerate(rows):
         pen.write(row, layout.DETAIL_COLUMN, field.label, Style.LABEL)
         pen.write(row, layout.DETAIL_COLUMN + 1, value, Style.INPUT)
-        pen.name_area(field.name, Area(OPTION_SPACE, row, layout.DETAIL_COLUMN + 1))
+        if live:
+            pen.name_area(field.name, Area(OPTION_SPACE, row, layout.DETAIL_COLUMN + 1))
     assumed = [
         f"{size:g} mm {labels.plural}"
         for labels, size in zip(layout.KINDS, layout.DEFAULT_DIAMETERS_MM, strict=True)
     ]
+    if not live:
+        return
     notes = ("Where a diameter is blank, pictures assume", f"{' and '.join(assumed)}.")
     for row, note in enumerate(notes, len(rows)):
         pen.write(row, layout.DETAIL_COLUMN, note, Style.NOTE)

@@ -23,6 +23,7 @@ from grasp_xl.workbook.history_sheet import write_history
 from grasp_xl.workbook.layout import Layout
 from grasp_xl.workbook.macros import Macros, add_buttons, add_macros, write_settings
 from grasp_xl.workbook.option_space_sheet import write_option_space
+from grasp_xl.workbook.part_sheet import PartRecord, write_part
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.picker import DESIGN_PICK, NO_PICKS, TRADE_OFF_PICK, Picks
 from grasp_xl.workbook.proved import Proved
@@ -43,6 +44,7 @@ def full_workbook(
     set_aside: SetAside = NOTHING_ASIDE,
     proved: Proved | None = None,
     trade_offs: TradeOffs | None = None,
+    part: PartRecord | None = None,
     macros: Macros | None = None,
 ) -> WrittenBook:
     """Write the full workbook of a run.
@@ -64,6 +66,8 @@ def full_workbook(
         What the exact search says.
     trade_offs : TradeOffs, optional
         Gives a sheet of its own.
+    part : PartRecord, optional
+        Gives a sheet of its own.
     macros : Macros, optional
         Make it a workbook with buttons.
     """
@@ -83,13 +87,11 @@ def full_workbook(
         f"Seed {task.settings.seed}, {result.state.generation:,} generations, "
         f"{origin.ended:%Y-%m-%d %H:%M}"
     )
-    sheets = list(layout.SHEETS)
-    if trade_offs:
-        sheets.insert(sheets.index(layout.VALID_DESIGNS) + 1, layout.TRADE_OFFS)
-    if macros:
-        sheets.append(layout.CONFIGURATION)
+    sheets = _sheet_names(part, trade_offs, macros)
     pens = {name: Pen(book, formats, name, run) for name in sheets}
     write_option_space(pens[layout.OPTION_SPACE], task.space, live=True)
+    if part:
+        write_part(pens[layout.PART_SHEET], part)
     cards = write_ga(pens[layout.GA], plan, task, result, shown)
     overruled = trade_offs.overrules(picks.trade_off) if trade_offs else None
     on_card = shown.what_if.chromosome
@@ -127,6 +129,20 @@ def full_workbook(
     )
 
 
+def _sheet_names(
+    part: PartRecord | None, trade_offs: TradeOffs | None, macros: Macros | None
+) -> list[str]:
+    """Return the names of the sheets, in order."""
+    names = list(layout.SHEETS)
+    if trade_offs:
+        names.insert(names.index(layout.VALID_DESIGNS) + 1, layout.TRADE_OFFS)
+    if part:
+        names.insert(names.index(layout.OPTION_SPACE) + 1, layout.PART_SHEET)
+    if macros:
+        names.append(layout.CONFIGURATION)
+    return names
+
+
 def _still_listed(picks: Picks, result: Result, trade_offs: TradeOffs | None) -> Picks:
     """Return the picks that the lists to be written have."""
     design, trade_off = picks
@@ -137,14 +153,18 @@ def _still_listed(picks: Picks, result: Result, trade_offs: TradeOffs | None) ->
     return Picks(design, trade_off)
 
 
-def export_workbook(space: OptionSpace) -> WrittenBook:
-    """Write an option space as CAD exports it: one sheet, values only."""
+def export_workbook(space: OptionSpace, part: PartRecord | None = None) -> WrittenBook:
+    """Write an option space as CAD exports it, values only; and the sheet ``Part``, if given."""
     file = io.BytesIO()
     book = _new_book(file)
-    pen = Pen(book, Formats(book), layout.OPTION_SPACE)
-    write_option_space(pen, space, live=False)
+    formats = Formats(book)
+    pens = [Pen(book, formats, layout.OPTION_SPACE)]
+    write_option_space(pens[0], space, live=False)
+    if part:
+        pens.append(Pen(book, formats, layout.PART_SHEET))
+        write_part(pens[-1], part)
     book.close()
-    return WrittenBook(file.getvalue(), {pen.name: pen.written}, {})
+    return WrittenBook(file.getvalue(), {pen.name: pen.written for pen in pens}, {})
 
 
 def _new_book(file: io.BytesIO) -> xlsxwriter.Workbook:
