@@ -25,6 +25,10 @@ from grasp_xl.commands.preparing import given_grasp, prepare
 from grasp_xl.errors import MAX_PROBLEMS, GraspError
 from grasp_xl.fitment import csv_table, element
 from grasp_xl.fitment.catalogue import find, read_catalogue
+from grasp_xl.fitment.deflection_polygon import SIMPLER
+from grasp_xl.fitment.fitting import MAX_FOOTPRINTS
+from grasp_xl.fitment.footprint import TOLERANCE_MM
+from grasp_xl.fitment.material import MATERIALS
 from grasp_xl.grasp import evaluate
 from grasp_xl.rules import Goals, Requirements, Rules, Terms
 from grasp_xl.search import stop
@@ -52,9 +56,9 @@ from grasp_xl.workbook.book import read_book
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
-ALGORITHM, COMMANDS, ELEMENTS, WORKBOOK = (
+ALGORITHM, COMMANDS, ELEMENTS, FITMENT, WORKBOOK = (
     (DOCS / f"{name}.md").read_text(encoding="utf-8")
-    for name in ("algorithm", "commands", "elements", "workbook")
+    for name in ("algorithm", "commands", "elements", "fitment", "workbook")
 )
 
 OTHER_SECTIONS = {"Options", "Exit codes", "JSON"}
@@ -103,10 +107,11 @@ def literals(cell: str) -> list[str]:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a folder with copies of the sample workbooks."""
+    """Return a folder with copies of the sample workbooks and parts."""
     copies = tmp_path_factory.mktemp("samples")
-    for book in (ROOT / "workbooks").glob("*.xlsx"):
-        shutil.copy(book, copies)
+    for sample in (ROOT / "workbooks").iterdir():
+        if sample.suffix in (".xlsx", ".step", ".dxf"):
+            shutil.copy(sample, copies)
     return copies
 
 
@@ -144,7 +149,7 @@ def test_the_option_table_is_that_of_the_program() -> None:
     assert documented_global == GLOBAL_OPTIONS
 
 
-@pytest.mark.parametrize("text", [ALGORITHM, COMMANDS, ELEMENTS, WORKBOOK])
+@pytest.mark.parametrize("text", [ALGORITHM, COMMANDS, ELEMENTS, FITMENT, WORKBOOK])
 def test_no_page_speaks_of_an_unknown_option(text: str) -> None:
     known = {name for _, name in OPTIONS} | GLOBAL_OPTIONS
     assert set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", text)) <= known
@@ -197,12 +202,38 @@ def test_json_has_the_documented_keys(folder: Path, capsys: pytest.CaptureFixtur
     assert set(told("check", book)) == keys_of("JSON of check")
     assert set(told("solve", book)) == keys_of("JSON of solve")
     assert set(told("elements")) == keys_of("JSON of elements")
+    fit = ("fit", str(folder / "bracket.step"))
+    cup = ("--cup", "SAF 40 NBR-60 M10-AG", "--cup-price", "10")
+    assert set(told(*fit, "-o", output, *cup)) == keys_of("JSON of fit")
+    assert set(told(*fit, "--list-faces")) == keys_of("JSON of fit --list-faces")
     front = told("front", book, "--time-limit", "0")
     assert set(front) == keys_of("JSON of front")
     added = {"error", "where", "hint"}
     assert set(told("check", book, "--fos", "99")) == keys_of("JSON of check") | added
     assert set(told("solve", book, "--fos", "99")) == keys_of("JSON of solve") | added
     assert set(told("evaluate", str(folder / "none.xlsx"))) == keys_of("JSON of an error")
+
+
+# --- fitment ---
+
+
+def test_materials_and_bounds_of_the_fitment_are_right() -> None:
+    table = {
+        literals(row["Material"])[0]: (
+            float(row["Density (g/cm3)"]),
+            row["Magnets hold it"] == "yes",
+        )
+        for row in rows(FITMENT, "Material")
+    }
+    assert table == {
+        name: (material.density_g_cm3, material.is_magnetic) for name, material in MATERIALS.items()
+    }
+    text = " ".join(FITMENT.split())
+    assert f"compared to {TOLERANCE_MM:f} mm" in text
+    assert f"At most {MAX_FOOTPRINTS:,} places" in text
+    assert f"({SIMPLER:.0%}".replace("%", " %") in text
+    material = next(row for row in rows(COMMANDS, "Option") if "`--material`" in row["Option"])
+    assert set(literals(material["Value"])) == set(MATERIALS)
 
 
 # --- elements ---

@@ -59,7 +59,7 @@ class PartRecord:
 def write_part(pen: Pen, record: PartRecord) -> None:
     """Write the sheet: facts, then a row a face, then a row a corner of its rings."""
     pen.write(0, 0, PART_TITLE, Style.TITLE)
-    _table(pen, 0, FACT_HEADER, record.facts, (Style.LABEL, Style.INPUT_TEXT))
+    _table(pen, 0, FACT_HEADER, record.facts, (Style.LABEL, Style.TEXT))
     styles = (Style.MARK, Style.COORDINATE, Style.TORQUE, Style.TEXT)
     faces = [
         (face.number, face.height_mm, face.area_mm2, face.used_for) for face in record.outlines
@@ -69,7 +69,7 @@ def write_part(pen: Pen, record: PartRecord) -> None:
     corners = list(_corners(record))
     _table(pen, OUTLINE_COLUMN, OUTLINE_HEADER, corners, styles)
     pen.sheet.freeze_panes(FIRST_ROW, 0)
-    pen.widths(0, 26, 44, 3, 8, 11, 14, 24, 3, 8, 8, 11, 11)
+    pen.widths(0, 26, 66, 3, 8, 11, 14, 24, 3, 8, 8, 11, 11)
     rows = FIRST_ROW + max(len(record.facts), len(faces))
     outlines = Area(PART_SHEET, HEADER_ROW, OUTLINE_COLUMN, 1 + len(corners), len(OUTLINE_HEADER))
     pen.print_pages(Area(PART_SHEET, 0, 0, rows, OUTLINE_COLUMN - 1), outlines)
