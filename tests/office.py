@@ -9,7 +9,7 @@ import signal
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
-from threading import Timer
+from select import select
 from typing import Any, NoReturn
 
 import pytest
@@ -158,10 +158,9 @@ class Office:
     def _answer(self) -> Any:
         if self._worker.stdout is None:
             raise AssertionError("started with a pipe")
-        patience = Timer(SECONDS, self._kill)
-        patience.start()
+        if not select([self._worker.stdout], [], [], SECONDS)[0]:
+            self._kill()
         line = self._worker.stdout.readline()
-        patience.cancel()
         answer = json.loads(line) if line else {"fault": "the worker ended"}
         if "fault" in answer:
             raise OfficeError(answer["fault"])

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple, Protocol
 
 from grasp_xl.errors import Problem, refuse
@@ -29,6 +29,7 @@ ERROR_VALUES = ("#N/A", "#REF!", "#DIV/0!", "#VALUE!", "#NAME?", "#NUM!", "#NULL
 _PLACE = re.compile(r".+!\$?[A-Z]{1,3}\$?[1-9]\d*(:\$?[A-Z]{1,3}\$?[1-9]\d*)?")
 _NUMBER = re.compile(r"(?<![A-Z0-9_.])\d+(\.\d+)?(E[+-]?\d+)?(?![A-Z0-9_.(])")
 _MAX_DIGITS = 20  # of a whole number that a message shows
+_FORMULAS = 2**16  # that are kept folded: each is compared a few times
 
 Value = object
 
@@ -305,6 +306,7 @@ def shown(number: float) -> str:
     return repr(number).removesuffix(".0")
 
 
+@lru_cache(maxsize=_FORMULAS)
 def same_formula(text: str | None) -> str:
     """Fold what programs write in different ways; empty for no formula.
 
