@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +11,10 @@ from grasp_xl.fitment.part import CadPart
 
 STEP_SUFFIXES = (".step", ".stp", ".p21")
 DXF_SUFFIX = ".dxf"
+
+OF_STEP = ("--up", "--approach")
+OF_DXF = ("--units", "--thickness", "--ignore-layer", "--gap")
+"""Options for one kind of file alone."""
 
 APPROACH_MM = 100.0
 """Room that an element with its fitting needs above a face."""
@@ -48,16 +53,17 @@ class Reading:
     gap_mm: float | None = None
     part: int | None = None
 
-    def only_of(self, kind: str) -> dict[str, object]:
-        """Return the options that were given and are of a kind of file alone."""
-        of_step = {"--up": self.up, "--approach": self.approach_mm}
-        of_dxf = {
+    def given(self) -> dict[str, object]:
+        """Return the options that were given, by name."""
+        options = {
+            "--up": self.up,
+            "--approach": self.approach_mm,
             "--units": self.units,
             "--thickness": self.thickness_mm,
             "--ignore-layer": self.ignored_layers or None,
             "--gap": self.gap_mm,
+            "--part": self.part,
         }
-        options = of_step if kind == "STEP" else of_dxf
         return {name: value for name, value in options.items() if value is not None}
 
 
@@ -73,7 +79,7 @@ def read_part(path: Path, reading: Reading) -> CadPart:
     """
     suffix = path.suffix.lower()
     if suffix in STEP_SUFFIXES:
-        _refuse(reading.only_of("DXF"), path, "a DXF file")
+        _refuse(reading, OF_DXF, path, "a DXF file")
         from grasp_xl.fitment.step_file import read_step
 
         return read_step(
@@ -83,7 +89,7 @@ def read_part(path: Path, reading: Reading) -> CadPart:
             approach_mm=APPROACH_MM if reading.approach_mm is None else reading.approach_mm,
         )
     if suffix == DXF_SUFFIX:
-        _refuse(reading.only_of("STEP"), path, "a STEP file")
+        _refuse(reading, OF_STEP, path, "a STEP file")
         if reading.thickness_mm is None:
             raise UsageError(
                 f"{path}: a DXF file does not say how thick the sheet is.",
@@ -108,9 +114,10 @@ def read_part(path: Path, reading: Reading) -> CadPart:
     )
 
 
-def _refuse(options: dict[str, object], path: Path, kind: str) -> None:
-    if options:
-        name = next(iter(options))
-        raise UsageError(
-            f"{name} is for {kind}, and {path} is none.", where=name, hint="Leave it out"
-        )
+def _refuse(reading: Reading, options: Sequence[str], path: Path, kind: str) -> None:
+    """Refuse options that are for the other kind of file."""
+    for name in reading.given():
+        if name in options:
+            raise UsageError(
+                f"{name} is for {kind}, and {path} is none.", where=name, hint="Leave it out"
+            )
