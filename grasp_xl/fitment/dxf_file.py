@@ -1,0 +1,87 @@
+"""Reading a flat part from a DXF drawing: its outline and holes, and the thickness of the sheet."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from pathlib import Path
+
+from shapely import Polygon
+
+from grasp_xl.errors import InputError, Problem
+from grasp_xl.fitment.dxf_lines import read_lines
+from grasp_xl.fitment.outlines import outlines_of
+from grasp_xl.fitment.part import CadPart, Face
+from grasp_xl.space import frozen
+
+MAX_LISTED = 20
+"""Parts of a sheet that a message lists."""
+
+
+def read_dxf(
+    path: Path,
+    *,
+    units: str | None,
+    thickness_mm: float,
+    part: int | None,
+    ignored_layers: Sequence[str],
+    gap_mm: float,
+) -> CadPart:
+    """Read a flat part: its face lies at z = thickness.
+
+    Parameters
+    ----------
+    path : Path
+    units : str or None
+        A key of :data:`UNITS`; needed where the drawing says none.
+    thickness_mm : float
+    part : int or None
+        Which of several, from 1, the largest first.
+    ignored_layers : sequence of str
+    gap_mm : float
+        Gaps of an outline up to this are closed.
+
+    Raises
+    ------
+    InputError
+        If it is no drawing of closed outlines, or of several parts and none is named.
+    """
+    name = str(path)
+    drawing, content = read_lines(path, units, ignored_layers)
+    outlines = outlines_of(drawing.lines, gap_mm, name)
+    outline = _chosen(outlines, part, name)
+    middle = outline.centroid
+    return CadPart(
+        name,
+        hashlib.sha256(content).hexdigest(),
+        outline.area * thickness_mm,
+        frozen([middle.x, middle.y, thickness_mm / 2]),
+        (Face(outline, thickness_mm),),
+        outline,
+        tuple(drawing.notes),
+    )
+
+
+def _chosen(outlines: Sequence[Polygon], part: int | None, name: str) -> Polygon:
+    if not outlines:
+        found, hint = "no closed outline", "draw the part's outline as lines and arcs that meet"
+        raise InputError([Problem(name, found, "one", hint)])
+    if part is None and len(outlines) == 1:
+        return outlines[0]
+    if part is not None and 1 <= part <= len(outlines):
+        return outlines[part - 1]
+    listed = "; ".join(_told(number, one) for number, one in enumerate(outlines[:MAX_LISTED], 1))
+    more = len(outlines) - MAX_LISTED
+    found = f"{len(outlines)} part{'s' if len(outlines) > 1 else ''} ({listed}"
+    found += f"; and {more} more)" if more > 0 else ")"
+    expected = "one" if part is None else f"a part {part}"
+    raise InputError([Problem(name, found, expected, "name one of them with --part")])
+
+
+def _told(number: int, outline: Polygon) -> str:
+    x_low, y_low, x_high, y_high = outline.bounds
+    holes = len(outline.interiors)
+    return (
+        f"{number}: {x_high - x_low:.5g} x {y_high - y_low:.5g} mm at x {x_low:.5g} y {y_low:.5g}, "
+        f"{holes} hole{'s' if holes != 1 else ''}"
+    )
