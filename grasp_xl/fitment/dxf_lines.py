@@ -134,7 +134,7 @@ def _opened(content: bytes, path: Path) -> Drawing:
     if auditor.has_errors:
         found = f"a damaged drawing ({auditor.errors[0].message[:100]})"
         raise InputError([Problem(name, found, DXF.expected, hint)])
-    return drawing  # type: ignore[no-any-return]
+    return drawing
 
 
 def _refuse_other_files(content: bytes, name: str) -> None:

@@ -172,6 +172,8 @@ def _divided(areas: Sequence[Polygon], lines: Sequence[Line], name: str) -> list
 
 def _nested(figures: Sequence[Polygon]) -> list[Polygon]:
     """Return the figures at even depths with those in them as holes, the largest first."""
+    if not figures:
+        return []
     sizes = shapely.area(figures)
     points = [each.representative_point() for each in figures]
     inside, around = STRtree(figures).query(points, "within")
