@@ -404,6 +404,26 @@ def test_of_two_searches_on_a_workbook_one_is_told_to_wait(book: xw.Book, log: P
     assert alerts(log)[-1].endswith("No problem found.")
 
 
+def test_stop_counts_as_soon_as_run_was_pressed(
+    book: xw.Book, log: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also before its worker is there, which takes seconds; another press of Run has to wait."""
+    typed(book, "Generations", 1_000_000_000)
+    started: list[list[str]] = []
+    monkeypatch.setattr(live.subprocess, "Popen", lambda words, **_: started.append(words))
+    live.run()
+    live.stop()
+    assert alerts(log) == []
+    live.run()
+    assert alerts(log) == [running.BUSY]
+    (words,) = started
+    behind = words.index("grasp_xl.live") + 1
+    worker.work(*words[behind : behind + 2])
+    assert alerts(log) == [running.BUSY]
+    assert book.names["StopReason"].refers_to_range.value.startswith("interrupted")
+    assert not running.Running.on(book).is_alive
+
+
 def test_check_tells_what_any_grasp_can_reach(book: xw.Book, log: Path) -> None:
     """In a message box, with warnings; nothing is written."""
     before = contents(book)

@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 from grasp_xl.live.excel import calling_book, tell
-from grasp_xl.live.running import BUSY, Running
+from grasp_xl.live.running import BusyError, Running
 
 IDLE = "No search is at work on this workbook."
 
@@ -48,11 +48,13 @@ main = run
 def _start(command: str) -> None:
     """Start a worker that finds the workbook as this process did: by the same arguments."""
     book = calling_book()
-    if Running.on(book).is_alive:
-        tell(book, BUSY)
+    try:
+        claim = Running.on(book).claim()
+    except BusyError as busy:
+        tell(book, busy.message)
         return
     # -P: nothing is imported from the folder that Excel starts in
-    words = [sys.executable, "-P", "-m", "grasp_xl.live", command, *sys.argv[1:]]
+    words = [sys.executable, "-P", "-m", "grasp_xl.live", command, claim, *sys.argv[1:]]
     nothing = subprocess.DEVNULL
     apart = {"creationflags": _APART} if os.name == "nt" else {"start_new_session": True}
     subprocess.Popen(words, stdin=nothing, stdout=nothing, stderr=nothing, **apart)  # noqa: S603 (ourselves)

@@ -14,6 +14,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from uuid import uuid4
 
 from platformdirs import user_cache_path
 
@@ -83,9 +84,13 @@ class Running:
         self.wish.unlink(missing_ok=True)
         ask.asked = False
 
-    @contextmanager
-    def marked(self) -> Iterator[Interrupt]:
-        """Mark a search as at work, and give the rule that the wish to stop trips.
+    def claim(self) -> str:
+        """Mark a search that is about to begin: from now on Stop ends it.
+
+        Returns
+        -------
+        str
+            By this the worker that begins it proves that the mark is meant for it.
 
         Raises
         ------
@@ -95,11 +100,32 @@ class Running:
         self.mark.parent.mkdir(parents=True, exist_ok=True)
         if not self.is_alive:
             self.mark.unlink(missing_ok=True)
+        claim = uuid4().hex
         try:
-            self.mark.touch(exist_ok=False)
+            with self.mark.open("x", encoding="ascii") as mark:
+                self.wish.unlink(missing_ok=True)
+                mark.write(claim)
         except FileExistsError:
             raise BusyError(BUSY) from None
-        self.wish.unlink(missing_ok=True)
+        return claim
+
+    @contextmanager
+    def marked(self, claim: str | None = None) -> Iterator[Interrupt]:
+        """Mark a search as at work, and give the rule that the wish to stop trips.
+
+        Parameters
+        ----------
+        claim : str, optional
+            That of the button which began it.
+
+        Raises
+        ------
+        BusyError
+            If another one is at work.
+        """
+        if not (claim and self._has(claim)):
+            self.claim()
+        self.mark.touch()
         ask, done = Interrupt(), threading.Event()
 
         def watch() -> None:
@@ -118,6 +144,12 @@ class Running:
             watcher.join()
             self.mark.unlink(missing_ok=True)
             self.wish.unlink(missing_ok=True)
+
+    def _has(self, claim: str) -> bool:
+        """Whether the mark is that of a claim."""
+        with suppress(OSError):
+            return self.mark.read_text(encoding="ascii") == claim
+        return False
 
 
 def _digest(name: str) -> str:

@@ -52,11 +52,19 @@ WAIT_SECONDS, AGAIN_SECONDS = 600.0, 3.0
 """How long results wait until they can be written, and how often that is tried."""
 
 
-def work(command: str) -> None:
-    """Do what a button says on the workbook that has it; whatever goes wrong is told there."""
+def work(command: str, claim: str | None = None) -> None:
+    """Do what a button says on the workbook that has it; whatever goes wrong is told there.
+
+    Parameters
+    ----------
+    command : str
+        What stands in :data:`COMMANDS`.
+    claim : str, optional
+        By which the button marked the workbook.
+    """
     book = calling_book()
     try:
-        with Running.on(book).marked() as ask:
+        with Running.on(book).marked(claim) as ask:
             outcome = COMMANDS[command](book, ask)
     except InputError as error:
         told = "\n".join(map(str, error.problems[:MAX_NAMED]))
