@@ -12,6 +12,7 @@ from decimal import Decimal
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import calc_engine
 import openpyxl
@@ -390,6 +391,35 @@ def test_a_search_ends_when_excel_is_gone(
     monkeypatch.setattr(worker, "_fill", ended)
     worker.work("run")
     assert "EOFError" in alerts(log)[-1]
+
+
+def test_a_search_ends_when_its_workbook_is_closed(
+    book: xw.Book, log: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Excel may have others open: nothing of the search stays in its status bar."""
+    typed(book, "Generations", 1_000_000_000)
+    mark = running.Running.on(book)
+    name, refuse = book.name, worker._refuse_unfit
+    closed: list[bool] = []
+
+    def name_of_open(_: xw.Book) -> str:
+        if closed:
+            raise RuntimeError
+        return name
+
+    def then_close(*found: Any) -> None:
+        refuse(*found)
+        closed.append(True)
+
+    monkeypatch.setattr(excel, "LOST_SECONDS", 1)
+    monkeypatch.setattr(xw.Book, "name", property(name_of_open))
+    monkeypatch.setattr(worker, "_refuse_unfit", then_close)
+    monkeypatch.setattr(worker, "tell", tell := Mock(side_effect=RuntimeError))
+    with pytest.raises(RuntimeError):
+        worker.work("run")
+    tell.assert_called_once()
+    assert calc_engine.noted(log)[-1]["text"] is False
+    assert not mark.is_alive
 
 
 def test_of_two_searches_on_a_workbook_one_is_told_to_wait(book: xw.Book, log: Path) -> None:

@@ -32,7 +32,7 @@ STATUS_SECONDS = 0.2
 """Least time between two texts in the status bar."""
 
 LOST_SECONDS = 60.0
-"""An Excel that takes no text for so long is gone: somebody edits a cell for less."""
+"""A workbook that does not answer for so long was closed: somebody edits a cell for less."""
 
 Book = xw.Book
 
@@ -59,13 +59,13 @@ class StatusBar:
     """
 
     def __init__(self, book: Book) -> None:
-        self._app = book.app
+        self._book, self._app = book, book.app  # that stays where the workbook is closed
         self._told_at = 0.0
         self._heard_at = time.monotonic()
 
     @property
     def is_lost(self) -> bool:
-        """Whether Excel seems to be gone."""
+        """Whether the workbook, or all of Excel, seems to be gone."""
         return time.monotonic() - self._heard_at > LOST_SECONDS
 
     def tell(self, text: str) -> None:
@@ -82,7 +82,8 @@ class StatusBar:
     def _show(self, text: str | bool) -> None:  # noqa: FBT001 (as Excel has it)
         with suppress(Exception):  # a busy Excel is no reason to end a search
             self._app.status_bar = text
-            self._heard_at = time.monotonic()
+            if self._book.name:  # a closed one has none, and raises
+                self._heard_at = time.monotonic()
 
 
 # --- reading ---

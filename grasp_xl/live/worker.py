@@ -63,22 +63,21 @@ def work(command: str, claim: str | None = None) -> None:
         By which the button marked the workbook.
     """
     book = calling_book()
+    status = StatusBar(book)
     try:
         with Running.on(book).marked(claim) as ask:
             outcome = COMMANDS[command](book, ask)
     except InputError as error:
         told = "\n".join(map(str, error.problems[:MAX_NAMED]))
-        tell(book, told, is_error=True)
     except GraspError as error:
-        hint = f"\n{error.hint}." if error.hint else ""
-        tell(book, f"{error.message}{hint}", is_error=True)
+        told = f"{error.message}\n{error.hint}." if error.hint else error.message
     except Exception as error:  # noqa: BLE001 (no traceback for a person)
         told = f"grasp_xl failed ({type(error).__name__}: {error}); the sheets are as they were."
-        tell(book, told, is_error=True)
     else:
         _show_for_a_while(book, outcome)
         return
-    StatusBar(book).clear()
+    status.clear()  # before the box, which a workbook that was closed cannot show
+    tell(book, told, is_error=True)
 
 
 def _show_for_a_while(book: Book, outcome: str) -> None:
