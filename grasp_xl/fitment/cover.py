@@ -73,7 +73,7 @@ def _clipped(corners: list[list[float]], height: float, side: int) -> list[list[
     return kept
 
 
-def _union(polygons: object) -> Polygon | MultiPolygon:
-    valid = shapely.make_valid(polygons)
-    wider = shapely.buffer(valid, SEAM_MM, join_style="mitre", mitre_limit=2)
-    return shapely.union_all(wider).buffer(-SEAM_MM, join_style="mitre", mitre_limit=2)
+def _union(triangles: object) -> Polygon | MultiPolygon:
+    """Join triangles and close the cracks between them."""
+    whole = shapely.union_all(triangles)
+    return whole.buffer(SEAM_MM, join_style="mitre").buffer(-SEAM_MM, join_style="mitre")
