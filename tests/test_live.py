@@ -179,6 +179,19 @@ def test_a_second_run_and_a_proof_replace_the_first(
     assert differences(tmp_path / "all.xlsx", tmp_path / "live.xlsx") == []
 
 
+def test_cards_follow_also_where_a_person_calculates_by_hand(
+    book: xw.Book, office: Office, log: Path
+) -> None:
+    """The results are calculated, and Excel is left as the person has it."""
+    book.app.calculation = "manual"
+    worker.work("run")
+    assert alerts(log) == []
+    assert book.app.calculation == "manual"
+    shown = book.sheets["GA"].range("D23:AX63").value
+    office.recalculate()
+    assert book.sheets["GA"].range("D23:AX63").value == shown
+
+
 def test_wrong_inputs_are_told_and_nothing_changes(book: xw.Book, log: Path) -> None:
     """Every problem in one message box, with its cell; no sheet is touched."""
     book.sheets[layout.OPTION_SPACE].range("B5").value = "heavy"

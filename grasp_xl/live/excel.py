@@ -262,6 +262,7 @@ def apply(book: Book, patch: Patch, untouched: Callable[[Area], bool]) -> None:
     with book.app.properties(screen_updating=False, calculation="manual"):
         try:
             _apply(book, patch, untouched)
+            book.app.calculate()  # also where a person calculates by hand
         except Exception as error:  # whatever Excel, AppleScript or COM raise
             with suppress(Exception):
                 _apply(book, patch.back, untouched)
