@@ -337,6 +337,20 @@ def test_what_excel_refuses_leaves_the_sheets_as_they_were(
     assert contents(book) == before
 
 
+def test_results_do_not_fail_for_what_is_printed(
+    book: xw.Book, log: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Excel takes no print area of more than 255 characters, which a workbook of many cards has."""
+
+    def refuse(*_: object) -> None:
+        raise ValueError
+
+    monkeypatch.setattr(calc_engine.PageSetup, "print_area", property(None, refuse))
+    worker.work("run")
+    assert alerts(log) == []
+    assert book.names["GenerationsDone"].refers_to_range.value == GENERATIONS
+
+
 def test_inputs_that_change_meanwhile_keep_the_sheets_as_they_are(
     book: xw.Book, log: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

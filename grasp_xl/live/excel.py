@@ -309,7 +309,8 @@ def _apply_to_sheet(sheet: Any, patch: SheetPatch, untouched: Callable[[Area], b
     for area in patch.merged:
         _range(sheet, area).merge()
     if patch.before.printed != patch.after.printed:
-        sheet.page_setup.print_area = ",".join(area.absolute for area in patch.after.printed)
+        with suppress(Exception):  # many cards make a text that is too long; results count more
+            sheet.page_setup.print_area = ",".join(area.absolute for area in patch.after.printed)
 
 
 def _range(sheet: Any, area: Area) -> Any:  # noqa: ANN401 (of xlwings)
