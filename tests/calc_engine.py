@@ -34,6 +34,8 @@ _CELLS = re.compile(r"\$?[A-Z]{1,3}\$?\d+(:\$?[A-Z]{1,3}\$?\d+)?", re.IGNORECASE
 _OWN_ERROR = re.compile(r"Err:\d+")
 _NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)(E[+-]?\d+)?\s*", re.IGNORECASE)
 EPOCH = dt.datetime(1899, 12, 30)  # noqa: DTZ001 (cells know no time zone)
+INT = 2**31
+"""Whole numbers that Windows and appscript hand to Excel are smaller."""
 ERRORS = ("#N/A", "#REF!", "#DIV/0!", "#VALUE!", "#NAME?", "#NUM!", "#NULL!")
 
 HORIZONTAL = {
@@ -76,6 +78,8 @@ def read_typed(value: Any) -> float | bool | str | dt.datetime | None:
         return dt.datetime.combine(value, dt.time())
     if isinstance(value, bool | dt.datetime) or value is None:
         return value
+    if not isinstance(value, str | float) and not (type(value) is int and -INT <= value < INT):
+        raise TypeError(f"{type(value)} {value} cannot be handed to Excel")
     if not isinstance(value, str):
         return None if value != value else float(value)  # noqa: PLR0124 (not a number)
     if _NUMBER.fullmatch(value):

@@ -50,6 +50,12 @@ def test_a_block_comes_back_as_it_was_written(book):
     assert cells.value == [[1, 2.5, "2.5"], [None, None, 0]]
 
 
+def test_whole_numbers_of_more_than_32_bits_are_refused(book):
+    """As appscript's are by Excel on a Mac, so that no test passes which would fail there."""
+    with pytest.raises(TypeError):
+        book.sheets["GA"].range("A1").formula = 2**31
+
+
 def folded(rows):
     return [[same_formula(text) for text in row] for row in rows]
 
