@@ -156,6 +156,8 @@ def test_a_run_equals_the_command_lines_cell_for_cell(
     look = book.sheets["Fitness Table"].range("B4"), book.sheets["Fitness Table"].range("B7")
     assert look[0].number_format == look[1].number_format
     assert look[0].color == look[1].color
+    lines = filled["Fitness Table"]["A3"].border.top, filled["Run Log"]["A3"].border.top
+    assert [line.style for line in lines] == ["thin", "thin"]
     office.do("close")
 
 

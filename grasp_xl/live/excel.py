@@ -299,7 +299,8 @@ def _apply_to_sheet(sheet: Any, patch: SheetPatch, untouched: Callable[[Area], b
     for name, area in patch.tables.items():
         if name in tables:  # a person may have turned it into plain cells
             tables[name].resize(_range(sheet, area))
-    for (name, value), areas in patch.looks().items():
+    looks = sorted(patch.looks().items(), key=lambda look: look[0][1] is not None)
+    for (name, value), areas in looks:  # lines are taken away before others are drawn there
         for area in areas:
             FORMATS[name](_range(sheet, area), value)
     for area in patch.blocks(lambda place: untouched(Area(patch.sheet, *place))):
