@@ -167,6 +167,7 @@ def test_a_second_run_and_a_proof_replace_the_first(
     """Also with other inputs, a large seed, a typed What-if grasp, and fewer designs than before."""
     office.open(SAMPLES / "bracket-result.xlsx")
     typed(book, "Seed", 5e9)  # more than 32 bits
+    typed(book, "MinClearance", 60)  # which some designs of the first run do not have
     typed(book, "Generations", 200)
     typed(book, "CostGoal", 80)  # below its floor: a warning more in the run log
     book.names["WhatIf"].refers_to_range.value = [[1, 5, 1, 1, 1, 1], [2, 51, 54, 1, 1, 1]]
@@ -315,6 +316,20 @@ def test_currency_cells_keep_all_digits() -> None:
     values = [[Decimal("10.1235"), Decimal("5.0000"), "x"]]
     texts = [["10.123456", "=A1/2", "x"]]
     assert excel._with_all_digits(values, texts) == [[10.123456, 5.0, "x"]]
+
+
+def test_goals_that_no_grasp_meets_are_told_by_every_button(office: Office, log: Path) -> None:
+    """With what would help, also where the workbook holds a run, whose cards have no fitness then."""
+    office.open(SAMPLES / "bracket-result.xlsx")
+    book = calc_engine.book_of(office)
+    typed(book, "FoSGoal", 50)
+    before = contents(book)
+    for command in ("check", "run", "prove"):
+        worker.work(command)
+    told = alerts(log)
+    assert [text.split(":")[0] for text in told] == ["No grasp can reach FoS 50"] * 3
+    assert contents(book) == before
+    office.do("close")
 
 
 def test_other_sizes_are_refused_before_any_search(book: xw.Book, log: Path) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import openpyxl
 import pytest
 from bad_workbooks import tiny_export
-from editing import Edit, edit, in_cell
+from editing import Edit, edit, in_cell, typed
 from office import Office
 from openpyxl.chart import BarChart
 from openpyxl.comments import Comment
@@ -42,6 +42,17 @@ def book(result: Path, tmp_path: Path) -> Path:
 def run_in_place(book: Path) -> int:
     """Run ten generations."""
     return main(["run", str(book), "--in-place", "--generations", "10", "--quiet"])
+
+
+@pytest.mark.parametrize(("name", "value"), [("FoSGoal", 5), ("MinClearance", 60)])
+def test_a_run_replaces_one_whose_designs_the_inputs_of_now_rule_out(
+    tmp_path: Path, name: str, value: float
+) -> None:
+    """They stand there with their numbers all the same, and nothing of them is named as lost."""
+    sample = Path(__file__).parents[1] / "workbooks" / "bracket-result.xlsx"
+    book = Path(shutil.copy(sample, tmp_path / "out.xlsx"))
+    edit(book, typed(name, value))
+    assert run_in_place(book) == 0
 
 
 def set_on(sheet: str, path: str, value: object = 1) -> Edit:

@@ -35,6 +35,9 @@ from grasp_xl.workbook.stamp import is_untouched
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs
 from grasp_xl.workbook.writing import export_workbook
 
+ALMOST_NONE = 1e-9
+"""A factor of safety and a clearance that every grasp has."""
+
 
 def replaced_in_place(output: Output, previous: Book) -> list[Problem]:
     """Refuse to replace a workbook that holds something which is not ours, before any search.
@@ -152,7 +155,10 @@ def cards(book: Book) -> int:
 
 
 def _of_its_sizes(book: Book) -> Book:
-    """Return a book with the sizes of its cards and lists, whatever sizes it asks for now."""
+    """Return a book with the sizes of its cards and lists, whatever it asks for now.
+
+    Its designs met FoS and clearance of their run, and have no numbers where those of now fail.
+    """
     names = book.source.names
     children = cards(book)
     block, corners = find_block(book.source, layout.USER_BLOCK), names.get(layout.IDEAL_POLYGON)
@@ -174,7 +180,9 @@ def _of_its_sizes(book: Book) -> Book:
                 corners.rows if corners else len(book.space.approximation_polygon_mm)
             ),
         ),
-        parameters=replace(book.parameters, children=max(2, children)),
+        parameters=replace(
+            book.parameters, children=max(2, children), fos=ALMOST_NONE, clearance_mm=ALMOST_NONE
+        ),
         user_chromosome=None,
         assigned=None,
         what_if=None,
