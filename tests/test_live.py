@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import sys
 import threading
 import time
@@ -56,6 +57,12 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("made") / "bracket.xlsm"
     assert main(["new", str(SAMPLES / "bracket.xlsx"), "-o", str(path), "--quiet"]) == 0
     return path
+
+
+@pytest.fixture
+def sample(tmp_path: Path) -> Path:
+    """Copy a workbook with a run: other tests may have the original open."""
+    return Path(shutil.copy(SAMPLES / "bracket-result.xlsx", tmp_path))
 
 
 @pytest.fixture
@@ -162,10 +169,10 @@ def test_a_run_equals_the_command_lines_cell_for_cell(
 
 
 def test_a_second_run_and_a_proof_replace_the_first(
-    book: xw.Book, office: Office, tmp_path: Path, log: Path
+    book: xw.Book, office: Office, sample: Path, tmp_path: Path, log: Path
 ) -> None:
     """Also with other inputs, a large seed, a typed What-if grasp, and fewer designs than before."""
-    office.open(SAMPLES / "bracket-result.xlsx")
+    office.open(sample)
     typed(book, "Seed", 5e9)  # more than 32 bits
     typed(book, "MinClearance", 60)  # which some designs of the first run do not have
     typed(book, "Generations", 200)
@@ -230,10 +237,10 @@ def test_what_is_not_ours_is_never_replaced(
 
 
 def test_filters_and_selection_stay(
-    office: Office, log: Path, monkeypatch: pytest.MonkeyPatch
+    office: Office, sample: Path, log: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Excel mixes up what is written where a filter hides rows: results wait until it is cleared."""
-    office.open(SAMPLES / "bracket-result.xlsx")
+    office.open(sample)
     book = calc_engine.book_of(office)
     typed(book, "Generations", 200)
     book.sheets["Fitness Table"].activate()
@@ -318,9 +325,11 @@ def test_currency_cells_keep_all_digits() -> None:
     assert excel._with_all_digits(values, texts) == [[10.123456, 5.0, "x"]]
 
 
-def test_goals_that_no_grasp_meets_are_told_by_every_button(office: Office, log: Path) -> None:
+def test_goals_that_no_grasp_meets_are_told_by_every_button(
+    office: Office, sample: Path, log: Path
+) -> None:
     """With what would help, also where the workbook holds a run, whose cards have no fitness then."""
-    office.open(SAMPLES / "bracket-result.xlsx")
+    office.open(sample)
     book = calc_engine.book_of(office)
     typed(book, "FoSGoal", 50)
     before = contents(book)
