@@ -112,7 +112,7 @@ def _read(path: Path) -> list[Solid]:
         If there are none, or nothing reads them.
     """
     try:
-        from grasp_xl.fitment import occ
+        from grasp_xl.fitment.occ import ReadError, read_solids
     except ImportError as error:
         raise GraspError(
             f"STEP files need OpenCASCADE, which is not installed ({error}).",
@@ -120,8 +120,8 @@ def _read(path: Path) -> list[Solid]:
         ) from error
     name = str(path)
     try:
-        solids, faces = occ.read_solids(path)
-    except (occ.ReadError, RuntimeError) as error:
+        solids, faces = read_solids(path)
+    except (ReadError, RuntimeError) as error:
         found = "a STEP file that OpenCASCADE cannot read"
         raise InputError([Problem(name, found, STEP.expected, EXPORT)]) from error
     if not solids:
