@@ -202,7 +202,7 @@ def test_json_has_the_documented_keys(folder: Path, capsys: pytest.CaptureFixtur
     assert set(told("check", book)) == keys_of("JSON of check")
     assert set(told("solve", book)) == keys_of("JSON of solve")
     assert set(told("elements")) == keys_of("JSON of elements")
-    fit = ("fit", str(folder / "bracket.step"))
+    fit = ("fit", str(folder / "tray.dxf"), "--thickness", "2")
     cup = ("--cup", "SAF 40 NBR-60 M10-AG", "--cup-price", "10")
     assert set(told(*fit, "-o", output, *cup)) == keys_of("JSON of fit")
     assert set(told(*fit, "--list-faces")) == keys_of("JSON of fit --list-faces")
