@@ -64,7 +64,7 @@ def repair(path: Path, *, force: bool = False) -> Buttons:
     InputError, OutputError
         If the file has no buttons, or cannot be written.
     """
-    check_place(path, (MACRO_SUFFIX,), force=force)
+    check_place(path, (MACRO_SUFFIX,), force=force, option="--repair")
     here = this_interpreter()
     if not here:
         raise UsageError(
