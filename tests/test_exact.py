@@ -15,10 +15,13 @@ from hypothesis import strategies as st
 from spaces import all_grasps, any_rules, option_spaces, plate, some_rules
 
 from grasp_xl.chromosome import from_active
-from grasp_xl.grasp import Grasp
+from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Rules
 from grasp_xl.search.exact import ExactSettings, solve
-from grasp_xl.search.exact_model import grow_tree
+from grasp_xl.search.exact_bound import node_bound
+from grasp_xl.search.exact_kernel import STEPS
+from grasp_xl.search.exact_model import Model, grow_tree, locate, weigh, weigh_goals
+from grasp_xl.search.exact_prices import make_room
 from grasp_xl.search.genetic import search
 from grasp_xl.search.result import GeneticSettings
 from grasp_xl.search.stop import Generations
@@ -90,6 +93,22 @@ def test_grasps_of_many_elements_equal_brute_force(space: OptionSpace, rules: Ru
     assert proof.status == ("optimal" if grasps else "infeasible")
     values = [grasp.value for grasp in grasps[:3]]
     assert [grasp.value for grasp in proof.designs] == pytest.approx(values, rel=1e-8, abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_multipliers_turn_towards_a_moment_that_is_left(seed):
+    """Where each element has its place, the bound is soon the value: u has the moment's direction."""
+    space, rules = plate(seed, cups=3, magnets=3), some_rules(criterion="moment+deviation")
+    model = Model(
+        locate(space, rules),
+        weigh(space, rules, [(3, 3)], caps=False),
+        weigh_goals(space, rules, []),
+    )
+    places = np.flatnonzero(model.locations.child[:, 0] < 0)
+    u, room = np.array([0.0, 0.0, -1.0, 0.0]), make_room(6, 6, 1)
+    bound = node_bound(model.locations, model.weights[0], places, 1e9, u, 2 * STEPS, room)
+    value = evaluate(space, rules, from_active(space, [(1, 2, 3), (1, 2, 3)])).value
+    assert value * 0.9999 <= bound <= value * (1 + 1e-9)
 
 
 @pytest.mark.parametrize("cores", [1, 3])

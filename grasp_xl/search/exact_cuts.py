@@ -16,8 +16,8 @@ from grasp_xl.space import FloatArray, IntArray
 MULTIPLIERS = 4
 """u (3), the direction along which the moment is bounded, and the price of a magnet."""
 
-CUTS = 16
-"""Cuts that are kept; of more, the newest."""
+CUTS = 17
+"""Cuts that are kept; of more, the newest.  The first is not met: it limits the length of u."""
 
 RAISES = 32
 """How often a cut is raised for one step, at most."""
@@ -73,7 +73,7 @@ def add_cut(
     cuts: Cuts, value: float, slope: tuple[float, float, float, float], best: FloatArray
 ) -> None:
     """Add the cut that was met at the point tried."""
-    row = cuts.met[0] % CUTS
+    row = 1 + cuts.met[0] % (CUTS - 1)
     cuts.met[0] += 1
     cuts.value[row] = value
     for axis in range(MULTIPLIERS):
@@ -84,11 +84,24 @@ def add_cut(
 @inner
 def move_best(cuts: Cuts, best: FloatArray) -> None:
     """Make the point tried the best one, and see all cuts from there."""
-    for row in range(min(cuts.met[0], CUTS)):
+    for row in range(1, 1 + min(cuts.met[0], CUTS - 1)):
         for axis in range(MULTIPLIERS):
             cuts.value[row] += cuts.slope[row, axis] * (cuts.trial[axis] - best[axis])
     for axis in range(MULTIPLIERS):
         best[axis] = cuts.trial[axis]
+
+
+@inner
+def limit_length(level: float, best: FloatArray, cuts: Cuts) -> None:
+    """Make the first cut be below a level where a direction is longer than 1.
+
+    That is, beyond the plane that touches the unit ball in the best point's direction.
+    """
+    unit = 1.0 / cuts.scale[0]
+    length = np.sqrt(best[0] * best[0] + best[1] * best[1] + best[2] * best[2])
+    cuts.value[0] = level + unit * (1.0 - length)
+    for axis in range(MULTIPLIERS):
+        cuts.slope[0, axis] = -unit * best[axis] / length if length > 0.0 and axis < 3 else 0.0
 
 
 @inner
@@ -104,7 +117,7 @@ def reached(cuts: Cuts, row: int) -> float:
 def lowest_behind(cuts: Cuts) -> tuple[int, float]:
     """Return the cut that is lowest behind the step, and its value there."""
     lowest, least = 0, np.inf
-    for row in range(min(cuts.met[0], CUTS)):
+    for row in range(1 + min(cuts.met[0], CUTS - 1)):
         value = reached(cuts, row)
         if value < least:
             lowest, least = row, value

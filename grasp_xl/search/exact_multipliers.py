@@ -5,7 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from grasp_xl.compiled import inner
-from grasp_xl.search.exact_cuts import MULTIPLIERS, Cuts, add_cut, move_best, step_to
+from grasp_xl.search.exact_cuts import (
+    MULTIPLIERS,
+    Cuts,
+    add_cut,
+    limit_length,
+    move_best,
+    step_to,
+)
 from grasp_xl.search.exact_model import MAGNETS, Locations
 from grasp_xl.search.exact_prices import Room, Truss, Weights, price, relaxed
 from grasp_xl.space import FloatArray, IntArray
@@ -63,7 +70,9 @@ def go(best: float, limit: float, share: float, u: FloatArray, cuts: Cuts) -> fl
     It is halved where no step reaches it.  The direction stays no longer than 1.
     """
     for _ in range(TRIES):
-        if step_to(best + share * (limit - best), cuts):
+        level = best + share * (limit - best)
+        limit_length(level, u, cuts)
+        if step_to(level, cuts):
             break
         share /= 2
     trial = cuts.trial
