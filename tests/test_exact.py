@@ -169,21 +169,28 @@ def test_nothing_found_in_no_time_is_unknown():
 
 
 @given(points=st.lists(st.tuples(*[st.integers(0, 9)] * 3), min_size=1, max_size=40))
-def test_tree_halves_every_box(points):
-    """A box has the bounds of its locations; its two halves share them, lower half first."""
+def test_tree_parts_heights_and_halves_other_boxes(points):
+    """A box has the bounds of its locations; its two parts share them, lower one first."""
     xyz = np.array(points, dtype=float)
     order, corners, run, child = grow_tree(xyz)
     assert sorted(order) == list(range(len(xyz)))
     assert len(run) == 2 * len(xyz) - 1
     for box, (first, last) in enumerate(run.tolist()):
-        inside = xyz[order[first:last], :2]
-        assert corners[box].tolist() == [*inside.min(axis=0), *inside.max(axis=0)]
+        inside = xyz[order[first:last]]
+        assert corners[box].tolist() == [*inside[:, :2].min(axis=0), *inside[:, :2].max(axis=0)]
         if last - first == 1:
             assert child[box].tolist() == [-1, -1]
             continue
         low, high = run[child[box]].tolist()
-        assert [first, (first + last) // 2, last] == [low[0], low[1], high[1]]
-        assert low[1] == high[0]
+        assert [first, low[1], last] == [low[0], high[0], high[1]]
+        steps = np.flatnonzero(np.diff(inside[:, 2])) + 1
+        if len(steps):
+            middle = (last - first) // 2
+            assert low[1] - first in steps
+            assert abs(low[1] - first - middle) == abs(steps - middle).min()
+            assert inside[: low[1] - first, 2].max() < inside[low[1] - first :, 2].min()
+            continue
+        assert low[1] == (first + last) // 2
         x, y = corners[box, 2:] - corners[box, :2]
         along = inside[:, 0 if x >= y else 1]
         assert along[: low[1] - first].max() <= along[low[1] - first :].min()

@@ -173,7 +173,7 @@ class _Search:
         for chromosome in known:
             self._take_known(chromosome)
         self.model = Model(
-            locate(space, rules),
+            locate(space, rules, caps=settings.meet_goals),
             weigh(space, rules, self.counts, caps=settings.meet_goals),
             weigh_goals(space, rules, self.counts if settings.meet_goals else []),
         )

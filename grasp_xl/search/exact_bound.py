@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from grasp_xl.compiled import allocation_free, inner
-from grasp_xl.search.exact_model import MAGNETS, Locations
+from grasp_xl.search.exact_model import CUPS, MAGNETS, Locations
 from grasp_xl.search.exact_multipliers import ascend
 from grasp_xl.search.exact_prices import (
     Room,
@@ -148,6 +148,12 @@ def can_hold(loc: Locations, w: Weights, t: Truss, boxes: IntArray, n: int) -> b
             near, far = box_squares(loc.corners[boxes[i]], loc.corners[boxes[j]])
             if far < w.clearance * w.clearance or near > t.reach:
                 return False
+    cups = magnets = 0
+    for i in range(n):
+        cups += not loc.carries[boxes[i], MAGNETS]
+        magnets += not loc.carries[boxes[i], CUPS]
+    if cups > w.cups or magnets > w.magnets:
+        return False
     first = 2 if t.a >= 0 else 0
     while first < n:
         last = group_end(w, boxes, n, first)

@@ -14,7 +14,7 @@ from grasp_xl.kernels import RecordArray
 from grasp_xl.search.exact_bound import node_bound
 from grasp_xl.search.exact_cuts import MULTIPLIERS
 from grasp_xl.search.exact_leaf import BUDGET, ENTRIES, enumerate_node
-from grasp_xl.search.exact_model import Locations
+from grasp_xl.search.exact_model import CUPS, MAGNETS, Locations
 from grasp_xl.search.exact_prices import Room, Truss, Weights, group_end, is_barred, truss_of
 from grasp_xl.space import FloatArray, IntArray
 
@@ -182,15 +182,55 @@ def width(loc: Locations, box: int) -> float:
 
 
 @inner
+def has_truss(loc: Locations, boxes: IntArray) -> bool:
+    """Tell whether both ends of the main truss are single locations."""
+    ends: bool = loc.child[boxes[0], 0] < 0 and loc.child[boxes[1], 0] < 0
+    return ends
+
+
+@inner
+def of_heights(loc: Locations, box: int) -> bool:
+    """Tell whether a box has locations of several heights."""
+    several: bool = loc.heights[box, 0] < loc.heights[box, 1]
+    return several
+
+
+@inner
+def of_two_kinds(loc: Locations, w: Weights, box: int) -> bool:
+    """Tell whether an element of a box may be a cup or a magnet."""
+    both: bool = loc.carries[box, CUPS] and loc.carries[box, MAGNETS]
+    return both and w.cups > 0 and w.magnets > 0
+
+
+@inner
 def to_split(loc: Locations, w: Weights, boxes: IntArray, n: int) -> int:
-    """Return which box to split: the wider end of the truss, then the widest cell; -1 if none."""
+    """Return which box to split; -1 if none.
+
+    One of several heights; then the wider end of the truss; then one of two kinds, and the widest.
+    """
+    for i in range(n):
+        if of_heights(loc, boxes[i]):
+            return i
+    if w.trussed and not has_truss(loc, boxes):
+        return int(width(loc, boxes[1]) > width(loc, boxes[0]))
     widest, at = -1.0, -1
     for i in range(n):
-        if w.trussed and i == 2 and at >= 0:
-            break
+        if of_two_kinds(loc, w, boxes[i]):
+            return i
         if width(loc, boxes[i]) > widest:
             widest, at = width(loc, boxes[i]), i
     return at
+
+
+@inner
+def halves(loc: Locations, w: Weights, boxes: IntArray, at: int) -> tuple[int, int]:
+    """Return the boxes that one is split into: its parts in the tree, or those of the two kinds."""
+    box = boxes[at]
+    kinds = of_two_kinds(loc, w, box) and not of_heights(loc, box)
+    if kinds and (w.trussed == 0 or has_truss(loc, boxes)):
+        tree = len(loc.child) // 3
+        return box + tree, box + 2 * tree
+    return loc.child[box, 0], loc.child[box, 1]
 
 
 @inner
@@ -211,7 +251,7 @@ def tighten(loc: Locations, t: Truss, box: int) -> int:
 def split(loc: Locations, w: Weights, boxes: IntArray, at: int, out: IntArray) -> int:
     """Make rows of ``out (m, n)``, copies of a node's boxes, its children's; return how many."""
     n = w.cups + w.magnets
-    low, high = loc.child[boxes[at], 0], loc.child[boxes[at], 1]
+    low, high = halves(loc, w, boxes, at)
     last = group_end(w, boxes, n, at)
     pair = bool(w.trussed) and at < 2 and boxes[0] == boxes[1]
     if pair:
@@ -283,13 +323,13 @@ def expand(
             born[i] = 1
             copy_node(batch, i, mine, 0)
             continue
-        if w.trussed and n >= MANY and boxes[2] == boxes[n - 1] and (at < 0 or at > 1):
+        if w.trussed and n >= MANY and has_truss(loc, boxes):
             u = batch.u[i, 0]
             bound = node_bound(loc, w, boxes, upper - slack, u, STEPS_OF_TRUSS, room)
             if bound >= upper - slack:
                 continue
             batch.bound[i] = max(batch.bound[i], bound)
-        if is_small(loc, w, boxes, n, at):
+        if is_small(loc, w, boxes, n):
             budget = BUDGET if at >= 0 else np.iinfo(np.int64).max
             if enumerate_node(loc, w, boxes, batch.u[i, 0], budget, found[i], genes[i], room):
                 continue
@@ -307,10 +347,10 @@ def expand(
 
 
 @inner
-def is_small(loc: Locations, w: Weights, boxes: IntArray, n: int, at: int) -> bool:
+def is_small(loc: Locations, w: Weights, boxes: IntArray, n: int) -> bool:
     """Tell whether it is worth trying to enumerate a node."""
     if w.trussed:
-        return at < 0 or at > 1
+        return has_truss(loc, boxes)
     locations = 0
     for i in range(n):
         locations += loc.run[boxes[i], 1] - loc.run[boxes[i], 0]

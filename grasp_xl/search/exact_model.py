@@ -56,6 +56,8 @@ use.
 class Locations(NamedTuple):
     """All places, in the order of a kd-tree, so that a box is a run of them.
 
+    The tree is there three times: with both kinds, with cups alone, with magnets alone.
+
     xyz ``(n, 3)`` seen from the part's centroid (mm), z = 0 with the plan arm; deviation ``(n,)``;
     footprint ``(n, 2)`` 0-based footprint of each kind, -1 for none.  Of each box: corners
     ``(m, 4)`` xmin, ymin, xmax, ymax; run ``(m, 2)`` its first and behind its last location; child
@@ -88,8 +90,11 @@ class Model(NamedTuple):
     goal_weights: RecordArray
 
 
-def locate(space: OptionSpace, rules: Rules) -> Locations:
-    """Merge footprints at one place into locations, and lay a kd-tree over them."""
+def locate(space: OptionSpace, rules: Rules, *, caps: bool = False) -> Locations:
+    """Merge footprints at one place into locations, and lay a kd-tree over them, once a kind.
+
+    With ``caps``, the moment counts in any case.
+    """
     places: dict[tuple[float, ...], list[int]] = {}
     for number, kind in enumerate(space.kinds):
         for index, point in enumerate(kind.footprints_mm.tolist()):
@@ -98,34 +103,39 @@ def locate(space: OptionSpace, rules: Rules) -> Locations:
     footprint = np.array(list(places.values()), dtype=np.int64).reshape(-1, 2)
     deviation = boundary_distances(points, np.array(space.ideal_polygon_mm))
     xyz = points - space.part.centroid_mm
-    if rules.requirements.moment_arm == "plan":
+    level = math.isinf(rules.scales.moment) and not caps
+    if level or rules.requirements.moment_arm == "plan":
         xyz[:, 2] = 0.0
     order, corners, run, child = grow_tree(xyz)
     xyz, deviation, footprint = np.ascontiguousarray(xyz[order]), deviation[order], footprint[order]
-    starts = run[:, 0]
     summed = [slice(first, last) for first, last in run.tolist()]
     clearance = rules.requirements.clearance_mm * (1 - SLACK)
     sides = corners[:, 2:] - corners[:, :2]
+    carries = np.array([(footprint[part] >= 0).any(axis=0) for part in summed]).reshape(-1, 2)
+    boxes = len(run)
     return Locations(
         xyz,
         deviation,
         footprint,
-        corners,
-        run,
-        child,
-        np.array([[xyz[part, 2].min(), xyz[part, 2].max()] for part in summed]).reshape(
-            len(starts), 2
+        np.tile(corners, (3, 1)),
+        np.tile(run, (3, 1)),
+        np.concatenate([np.where(child < 0, -1, child + tree * boxes) for tree in range(3)]),
+        np.tile(
+            np.array([[xyz[part, 2].min(), xyz[part, 2].max()] for part in summed]).reshape(-1, 2),
+            (3, 1),
         ),
-        np.array([deviation[part].min() for part in summed]),
-        np.array([(footprint[part] >= 0).any(axis=0) for part in summed]).reshape(len(starts), 2),
-        (sides**2).sum(axis=1) < clearance**2,
+        np.tile([deviation[part].min() for part in summed], 3),
+        np.concatenate([carries, carries & [True, False], carries & [False, True]]),
+        np.tile((sides**2).sum(axis=1) < clearance**2, 3),
     )
 
 
 def grow_tree(xyz: FloatArray) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
-    """Build a kd-tree in plan view down to single points: point order, corners, runs, children.
+    """Build a kd-tree down to single points: point order, plan-view corners, runs, children.
 
-    All boxes of a level at once, in NumPy: compiling takes longer than it will ever save.
+    A box of several heights is parted between two of them, as near to its middle as may be; others
+    are halved across their longer side.  All boxes of a level at once, in NumPy: compiling takes
+    longer than it will ever save.
     """
     order = np.arange(len(xyz))
     level, boxes = np.array([[0, len(xyz)]]), 1
@@ -135,20 +145,29 @@ def grow_tree(xyz: FloatArray) -> tuple[IntArray, FloatArray, IntArray, IntArray
         size = last - first
         begin = np.cumsum(size) - size
         box = np.repeat(np.arange(len(level)), size)
-        place = np.arange(len(box)) + (first - begin)[box]
-        points = xyz[order[place], :2]
+        row = np.arange(len(box))
+        place = row + (first - begin)[box]
+        points = xyz[order[place]]
         low, high = np.minimum.reduceat(points, begin), np.maximum.reduceat(points, begin)
         wide = high - low
-        along = np.where((wide[:, 0] >= wide[:, 1])[box], points[:, 0], points[:, 1])
-        order[place] = order[place][np.lexsort((along, box))]
+        axis = np.where(wide[:, 2] > 0, 2, np.where(wide[:, 0] >= wide[:, 1], 0, 1))[box]
+        sort = np.lexsort((points[row, axis], box))
+        order[place] = order[place][sort]
+        half = size // 2
+        away = row - (begin + half)[box]
+        height = points[sort, 2]
+        inseparable = (axis == 2) & (height == np.roll(height, 1)) | (row == begin[box])
+        steps = np.where(inseparable, 2 * len(xyz), 2 * np.abs(away) + (away < 0))
+        nearest = np.minimum.reduceat(steps, begin)
+        half += np.where(nearest % 2, -1, 1) * (nearest // 2)
         halved = level[size > 1]
         halves = np.full(level.shape, -1)
         halves[size > 1] = boxes + np.arange(halved.size).reshape(-1, 2)
-        corners.append(np.hstack([low, high]))
+        corners.append(np.hstack([low[:, :2], high[:, :2]]))
         run.append(level)
         child.append(halves)
         boxes += halved.size
-        middle = halved.sum(axis=1) // 2
+        middle = (first + half)[size > 1]
         level = np.column_stack([halved[:, 0], middle, middle, halved[:, 1]]).reshape(-1, 2)
     return order, np.concatenate(corners), np.concatenate(run), np.concatenate(child)
 
