@@ -14,7 +14,7 @@ from spaces import all_grasps, any_rules, option_spaces, plate, some_rules
 from grasp_xl.chromosome import from_active
 from grasp_xl.grasp import Grasp
 from grasp_xl.rules import TERMS, Goals, Rules, Terms
-from grasp_xl.search.front import Front, find_front, weighted, weightings
+from grasp_xl.search.front import CLOSE, Front, find_front, is_close, weighted, weightings
 from grasp_xl.search.result import GeneticSettings
 from grasp_xl.space import OptionSpace
 
@@ -134,6 +134,19 @@ def test_the_time_limit_is_kept():
     listed = [design.grasp for design in front.designs]
     assert listed
     assert all(dominating(grasp.terms, listed) == [] for grasp in listed)
+
+
+@pytest.mark.parametrize(
+    ("best", "bound", "close"),
+    [(2.0, 1.9981, True), (2.0, 1.9979, False), (0.1, 0.0991, True), (0.1, 0.0989, False)],
+)
+def test_a_sum_is_minimised_to_a_share_of_it_or_of_the_goals(best, bound, close):
+    """Whichever is more; a sum at the goals is 1, a criterion alone is its goal there."""
+    rules = some_rules(goals=(5.0, 7.0, 9.0, 11.0))
+    mixed, alone = (weighted(rules, Terms(0.0, 1 - share, share, 0.0)) for share in (0.25, 1.0))
+    assert is_close(mixed, CLOSE, bound, best) == close
+    assert is_close(alone, CLOSE, 9 * bound, 9 * best) == close
+    assert not is_close(mixed, CLOSE, bound, None)
 
 
 @pytest.mark.parametrize(("grid", "count"), [(1, 4), (2, 10), (4, 35), (10, 286)])

@@ -39,8 +39,9 @@ Counted, not timed, so that the result does not depend on how fast a machine is.
 """
 
 CLOSE = 1e-3
-"""Relative gap at which a weighted sum counts as minimised: where a few elements of many places
-balance the part in very many ways, some come nearer to a moment of 0 than anybody needs."""
+"""A weighted sum counts as minimised when no grasp can be better by more than this share of it, or
+of what it is at the goals, if that is more: where a few elements of many places balance the part in
+very many ways, some come nearer to a moment of 0 than anybody needs."""
 
 LEAST_CAP = 1e-9
 """A criterion of 0 is capped there, since values are divided by caps."""
@@ -157,6 +158,11 @@ def weighted(rules: Rules, weights: Terms) -> Rules:
     """Return rules whose value is a weighted sum; of one criterion alone, in its own unit."""
     terms = frozenset(term for term, weight in zip(TERMS, weights, strict=True) if weight)
     return replace(rules, criterion=Criterion(terms), weights=weights)
+
+
+def is_close(rules: Rules, share: float, bound: float, best: float | None) -> bool:
+    """Tell whether no value can be below the best by more than a share of it, or of the goals'."""
+    return best is not None and best - bound <= share * max(abs(best), rules.baseline)
 
 
 def no_worse_than(rules: Rules, terms: Terms) -> Rules:
@@ -312,9 +318,10 @@ class _Finder:
             return
         rules = weighted(self._rules, weights)
         best = min(self._met, key=lambda met: rules.value(met.grasp.terms), default=None)
-        proof = self._solve(rules, [best.grasp.chromosome] if best else [], ExactSettings(), effort)
+        known, enough = [best.grasp.chromosome] if best else [], 0.0 if all(weights) else CLOSE
+        proof = self._solve(rules, known, ExactSettings(), effort, enough)
         found = [_Met(self._judged(each.chromosome)) for each in proof.designs]
-        if proof.gap is not None and proof.gap <= CLOSE:
+        if is_close(rules, CLOSE, proof.bound, proof.designs[0].value if proof.designs else None):
             self._open.remove(weights)
             for met in found:
                 met.optimal_for.append(weights)
@@ -339,17 +346,23 @@ class _Finder:
             self._tell()
 
     def _solve(
-        self, rules: Rules, known: list[Chromosome], settings: ExactSettings, effort: int
+        self,
+        rules: Rules,
+        known: list[Chromosome],
+        settings: ExactSettings,
+        effort: int,
+        enough: float = 0.0,
     ) -> Proof:
-        """Run the exact search for so many batches of nodes."""
-        batches = 0
+        """Run the exact search for so many batches of nodes; fewer where it comes close enough."""
+        batches, close = 0, False
 
-        def count(*_: object) -> None:
-            nonlocal batches
+        def count(bound: float, best: float | None) -> None:
+            nonlocal batches, close
             batches += 1
+            close = batches >= FIRST_EFFORT and is_close(rules, enough, bound, best)
 
         def stop() -> bool:
-            return batches >= effort or self._halted()
+            return batches >= effort or close or self._halted()
 
         return solve(self._space, rules, settings, known=known, stop=stop, on_progress=count)
 

@@ -55,7 +55,7 @@ EXPLAINED_ROW = TABLE_ROW - 1
 EXPLAINED = (
     "proved: no grasp of all is better in one criterion and no worse in the others.  found: no "
     "such grasp is known.  Weights: no grasp of all has a sum of weight times normalised value "
-    "that is lower by more than 0.1 %."
+    "that is lower by more than 0.1 % of it, or of 1 if that is more."
 )
 HINT = PickHint(
     "Type a No. of the list: the two rows below and the What-if card show that design. Empty: the "
