@@ -17,6 +17,7 @@ from spaces import all_grasps, any_rules, option_spaces, plate, some_rules
 from grasp_xl.chromosome import from_active
 from grasp_xl.grasp import Grasp, evaluate
 from grasp_xl.rules import Rules
+from grasp_xl.search import exact_model
 from grasp_xl.search.exact import ExactSettings, solve
 from grasp_xl.search.exact_bound import node_bound
 from grasp_xl.search.exact_kernel import STEPS
@@ -52,6 +53,19 @@ def test_optimum_equals_brute_force(data):
     goal_proof = solve(space, rules, ExactSettings(meet_goals=True, min_elements=1))
     found = [grasp.value for grasp in goal_proof.designs]
     assert found == pytest.approx(good[:1], rel=1e-8, abs=1e-9)
+
+
+@settings(max_examples=20, deadline=None)
+@given(data=st.data())
+def test_places_at_many_heights_equal_brute_force(data):
+    """Where boxes are not parted by height, as of a curved part, the optimum is the same."""
+    space, rules = data.draw(option_spaces(most=5)), data.draw(any_rules())
+    grasps = all_grasps(space, rules)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(exact_model, "FEW_HEIGHTS", 0)
+        proof = solve(space, rules)
+    found = [grasp.value for grasp in proof.designs]
+    assert found == pytest.approx([g.value for g in grasps[:1]], rel=1e-8, abs=1e-9)
 
 
 @settings(max_examples=40, deadline=None)
@@ -168,11 +182,14 @@ def test_nothing_found_in_no_time_is_unknown():
     assert proof.bound < math.inf
 
 
-@given(points=st.lists(st.tuples(*[st.integers(0, 9)] * 3), min_size=1, max_size=40))
-def test_tree_parts_heights_and_halves_other_boxes(points):
+@given(
+    points=st.lists(st.tuples(*[st.integers(0, 9)] * 3), min_size=1, max_size=40),
+    by_height=st.booleans(),
+)
+def test_tree_parts_heights_and_halves_other_boxes(points, by_height):
     """A box has the bounds of its locations; its two parts share them, lower one first."""
     xyz = np.array(points, dtype=float)
-    order, corners, run, child = grow_tree(xyz)
+    order, corners, run, child = grow_tree(xyz, by_height=by_height)
     assert sorted(order) == list(range(len(xyz)))
     assert len(run) == 2 * len(xyz) - 1
     for box, (first, last) in enumerate(run.tolist()):
@@ -184,7 +201,7 @@ def test_tree_parts_heights_and_halves_other_boxes(points):
         low, high = run[child[box]].tolist()
         assert [first, low[1], last] == [low[0], high[0], high[1]]
         steps = np.flatnonzero(np.diff(inside[:, 2])) + 1
-        if len(steps):
+        if by_height and len(steps):
             middle = (last - first) // 2
             assert low[1] - first in steps
             assert abs(low[1] - first - middle) == abs(steps - middle).min()

@@ -190,9 +190,9 @@ def has_truss(loc: Locations, boxes: IntArray) -> bool:
 
 @inner
 def of_heights(loc: Locations, box: int) -> bool:
-    """Tell whether a box has locations of several heights."""
+    """Tell whether a box has locations of several heights, and is to be parted by them."""
     several: bool = loc.heights[box, 0] < loc.heights[box, 1]
-    return several
+    return loc.by_height and several
 
 
 @inner

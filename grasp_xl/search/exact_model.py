@@ -53,6 +53,11 @@ use.
 """
 
 
+FEW_HEIGHTS = 8
+"""Of parts with flat faces; where places lie at more, boxes are not parted by height: those of a
+curved part would be parted by nothing else."""
+
+
 class Locations(NamedTuple):
     """All places, in the order of a kd-tree, so that a box is a run of them.
 
@@ -63,7 +68,8 @@ class Locations(NamedTuple):
     ``(m, 4)`` xmin, ymin, xmax, ymax; run ``(m, 2)`` its first and behind its last location; child
     ``(m, 2)`` boxes, -1 at a single location; heights ``(m, 2)`` least and largest z;
     least_deviation ``(m,)``; carries ``(m, 2)`` whether it has a footprint of each kind; tight
-    ``(m,)`` whether no two of its locations keep the clearance.
+    ``(m,)`` whether no two of its locations keep the clearance.  by_height: whether boxes of
+    several heights are parted first.
     """
 
     xyz: FloatArray
@@ -76,6 +82,7 @@ class Locations(NamedTuple):
     least_deviation: FloatArray
     carries: NDArray[np.bool_]
     tight: NDArray[np.bool_]
+    by_height: bool
 
 
 class Model(NamedTuple):
@@ -106,7 +113,8 @@ def locate(space: OptionSpace, rules: Rules, *, caps: bool = False) -> Locations
     level = math.isinf(rules.scales.moment) and not caps
     if level or rules.requirements.moment_arm == "plan":
         xyz[:, 2] = 0.0
-    order, corners, run, child = grow_tree(xyz)
+    by_height = len(np.unique(xyz[:, 2])) <= FEW_HEIGHTS
+    order, corners, run, child = grow_tree(xyz, by_height=by_height)
     xyz, deviation, footprint = np.ascontiguousarray(xyz[order]), deviation[order], footprint[order]
     summed = [slice(first, last) for first, last in run.tolist()]
     clearance = rules.requirements.clearance_mm * (1 - SLACK)
@@ -127,15 +135,18 @@ def locate(space: OptionSpace, rules: Rules, *, caps: bool = False) -> Locations
         np.tile([deviation[part].min() for part in summed], 3),
         np.concatenate([carries, carries & [True, False], carries & [False, True]]),
         np.tile((sides**2).sum(axis=1) < clearance**2, 3),
+        by_height,
     )
 
 
-def grow_tree(xyz: FloatArray) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
+def grow_tree(
+    xyz: FloatArray, *, by_height: bool
+) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
     """Build a kd-tree down to single points: point order, plan-view corners, runs, children.
 
-    A box of several heights is parted between two of them, as near to its middle as may be; others
-    are halved across their longer side.  All boxes of a level at once, in NumPy: compiling takes
-    longer than it will ever save.
+    With ``by_height``, a box of several heights is parted between two of them, as near to its
+    middle as may be; others are halved across their longer side.  All boxes of a level at once, in
+    NumPy: compiling takes longer than it will ever save.
     """
     order = np.arange(len(xyz))
     level, boxes = np.array([[0, len(xyz)]]), 1
@@ -150,7 +161,8 @@ def grow_tree(xyz: FloatArray) -> tuple[IntArray, FloatArray, IntArray, IntArray
         points = xyz[order[place]]
         low, high = np.minimum.reduceat(points, begin), np.maximum.reduceat(points, begin)
         wide = high - low
-        axis = np.where(wide[:, 2] > 0, 2, np.where(wide[:, 0] >= wide[:, 1], 0, 1))[box]
+        longer = np.where(wide[:, 0] >= wide[:, 1], 0, 1)
+        axis = np.where(by_height & (wide[:, 2] > 0), 2, longer)[box]
         sort = np.lexsort((points[row, axis], box))
         order[place] = order[place][sort]
         half = size // 2
