@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-import io
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
+from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from grasp_xl.errors import InputError, Problem
-from grasp_xl.file_content import FileKind, read_content
+from grasp_xl.errors import InputError, Problem, refuse
+from grasp_xl.file_content import read_content
+from grasp_xl.fitment.dxf_curves import chords_of, is_curve
+from grasp_xl.fitment.dxf_opening import DXF, opened
 from grasp_xl.fitment.words import UNITS
 from grasp_xl.printable import quoted
 from grasp_xl.space import FloatArray
@@ -25,10 +28,6 @@ if TYPE_CHECKING:
 SAG_MM = 0.05
 """How far the chords of an arc may stray from it."""
 
-MAX_FILE_BYTES = 128_000_000
-DXF = FileKind("drawing", "a DXF drawing", MAX_FILE_BYTES, "export the part's outlines alone")
-
-CURVES = {"LINE", "ARC", "CIRCLE", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE", "HELIX"}
 ANNOTATION = {
     *("TEXT", "MTEXT", "ATTRIB", "ATTDEF", "DIMENSION", "ARC_DIMENSION", "LARGE_RADIAL_DIMENSION"),
     *("LEADER", "MULTILEADER", "MLEADER", "TOLERANCE", "HATCH", "MPOLYGON", "POINT", "VIEWPORT"),
@@ -39,11 +38,14 @@ ANNOTATION = {
 UNIT_CODES = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
 """What ``$INSUNITS`` says; 0 is no unit, and nobody draws parts in the others."""
 
-BINARY = b"AutoCAD Binary DXF"
-"""How the binary form begins."""
-
 MAX_NESTING = 32
 """Blocks in blocks."""
+
+MAX_ENTITIES = 1_000_000
+"""Also those of blocks, each time that they are inserted."""
+
+MAX_MM = 1e8
+"""Coordinates: farther out, numbers no longer tell a thousandth of a gap."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -67,15 +69,15 @@ class Drawing2D:
 
     Parameters
     ----------
-    lines : list of Line
     layers : list of str
         Of its curves, also of those that are left out.
     notes : list of Problem
+    lines : list of Line
     """
 
+    layers: list[str]
+    notes: list[Problem]
     lines: list[Line] = field(default_factory=list)
-    layers: list[str] = field(default_factory=list)
-    notes: list[Problem] = field(default_factory=list)
 
 
 def read_lines(
@@ -95,85 +97,72 @@ def read_lines(
     InputError
         If it is no drawing, has no curves or says no unit, or a layer is not in it.
     """
-    content = read_content(path, DXF)
-    drawing = _opened(content, path)
-    entities = list(_curves_and_rest(drawing.modelspace(), "", 0))
-    found = Drawing2D(layers=sorted({layer for entity, layer in entities if _is_curve(entity)}))
-    _check_layers(found, ignored_layers, str(path))
-    hidden = {layer.dxf.name for layer in drawing.layers if layer.is_off() or layer.is_frozen()}
-    left_out = {name.casefold() for name in (*hidden, *ignored_layers)}
-    shown = [(e, layer) for e, layer in entities if layer.casefold() not in left_out]
-    if not any(_is_curve(entity) for entity, _ in shown):
-        raise InputError([_no_curves(entities, str(path))])
-    mm = _unit_mm(drawing, units, [e for e, _ in shown if _is_curve(e)], found, str(path))
-    for entity, layer in shown:
-        if _is_curve(entity):
-            found.lines += _lines_of(entity, layer, mm)
-    _note_left_out(found, entities, hidden & set(found.layers), str(path))
+    name, content = str(path), read_content(path, DXF)
+    drawing, notes = opened(content, path)
+    hidden = {folded(one.dxf.name) for one in drawing.layers if one.is_off() or one.is_frozen()}
+    frozen = {folded(one.dxf.name) for one in drawing.layers if one.is_frozen()}
+    ignored = {folded(layer) for layer in ignored_layers}
+    entities = _entities(drawing, frozen | ignored, name)
+    found = Drawing2D(sorted({layer for entity, layer in entities if is_curve(entity)}), notes)
+    _check_layers(found, ignored_layers, name)
+    shown = [(e, layer) for e, layer in entities if folded(layer) not in hidden | ignored]
+    curves = [(entity, layer) for entity, layer in shown if is_curve(entity)]
+    if not curves:
+        raise InputError([_no_curves(entities, name)])
+    mm = _unit_mm(drawing, units, [entity for entity, _ in curves], found, name)
+    found.lines = _lines(curves, mm, name)
+    _note_left_out(found, shown, hidden, name)
     return found, content
 
 
-def _opened(content: bytes, path: Path) -> Drawing:
-    """Open a drawing; one with small faults as far as it can be."""
-    import ezdxf
-    from ezdxf import recover
-    from ezdxf.lldxf.const import DXFError
-
-    name, hint = str(path), "export it again as DXF (R2000 or later)"
-    _refuse_other_files(content, name)
-    try:
-        if content.startswith(BINARY):
-            drawing = ezdxf.readfile(path)  # type: ignore[attr-defined]
-            auditor = drawing.audit()
-        else:
-            drawing, auditor = recover.read(io.BytesIO(content))
-    except (OSError, DXFError, ValueError, KeyError, IndexError, AttributeError) as error:
-        reason = (str(error) or type(error).__name__).splitlines()[0][:100]
-        found = f"a file that is no DXF drawing ({reason})"
-        raise InputError([Problem(name, found, DXF.expected, hint)]) from None
-    if auditor.has_errors:
-        found = f"a damaged drawing ({auditor.errors[0].message[:100]})"
-        raise InputError([Problem(name, found, DXF.expected, hint)])
-    return drawing
+def folded(layer: str) -> str:
+    """Return what the names of one layer have in common: case does not matter."""
+    return layer.casefold()
 
 
-def _refuse_other_files(content: bytes, name: str) -> None:
-    """Refuse what the library would take for a drawing, and find nothing in."""
-    hint = "export it as DXF (R2000 or later)"
-    if not content.strip():
-        raise InputError([Problem(name, "an empty file", DXF.expected, hint)])
-    if content.startswith(b"AC10"):
-        raise InputError([Problem(name, "a DWG drawing", DXF.expected, hint)])
-    if not content.startswith(BINARY) and b"SECTION" not in content:
-        raise InputError([Problem(name, "a file that is no DXF drawing", DXF.expected, hint)])
-    if not content.rstrip(b"\0 \r\n\t\x1a").endswith(b"EOF"):
-        raise InputError([Problem(name, "a drawing that breaks off", DXF.expected, hint)])
+def _entities(
+    drawing: Drawing, blocking: AbstractSet[str], name: str
+) -> list[tuple[DXFEntity, str]]:
+    walk = _drawn(drawing.modelspace(), "", blocking, 0)
+    entities = list(islice(walk, MAX_ENTITIES + 1))
+    if len(entities) > MAX_ENTITIES:
+        found, expected = f"more than {MAX_ENTITIES:,} entities in its blocks", "fewer"
+        raise InputError([Problem(name, found, expected, DXF.make_smaller)])
+    return entities
 
 
-def _curves_and_rest(
-    entities: Iterable[DXFEntity], parent_layer: str, depth: int
+def _drawn(
+    entities: Iterable[DXFEntity], parent: str, blocking: AbstractSet[str], depth: int
 ) -> Iterator[tuple[DXFEntity, str]]:
-    """Yield all entities with their layers; those of blocks where they are inserted."""
+    """Yield what is drawn, with its layer; the entities of blocks where they are inserted.
+
+    What a block holds on layer 0 is on that of the insertion; all of it is, if that is one of those
+    which hide all that is inserted on them.
+    """
     for entity in entities:
+        if entity.dxf.get("invisible", 0):  # other states of a dynamic block, for example
+            continue
         layer = str(entity.dxf.get("layer", "0"))
-        if parent_layer and layer == "0":  # in a block: that of the insertion
-            layer = parent_layer
-        if entity.dxftype() != "INSERT":
+        if parent and (layer == "0" or folded(parent) in blocking):
+            layer = parent
+        if not _can_be_resolved(entity, depth):
             yield entity, layer
-        elif depth < MAX_NESTING:
-            insert: Insert = entity  # type: ignore[assignment]
-            for one in insert.multi_insert() if insert.mcount > 1 else (insert,):
-                yield from _curves_and_rest(one.virtual_entities(), layer, depth + 1)
+            continue
+        insert = cast("Insert", entity)
+        for one in insert.multi_insert() if insert.mcount > 1 else (insert,):
+            yield from _drawn(one.virtual_entities(), layer, blocking, depth + 1)
 
 
-def _is_curve(entity: DXFEntity) -> bool:
-    if entity.dxftype() == "POLYLINE":
-        return bool(entity.is_2d_polyline or entity.is_3d_polyline)  # type: ignore[attr-defined]
-    return entity.dxftype() in CURVES
+def _can_be_resolved(entity: DXFEntity, depth: int) -> bool:
+    """Say whether an entity is a block whose content is in the file."""
+    if entity.dxftype() != "INSERT" or depth >= MAX_NESTING:
+        return False
+    definition = cast("Insert", entity).block()
+    return definition is not None and not (definition.block and definition.block.is_xref)
 
 
 def _check_layers(found: Drawing2D, ignored: Sequence[str], name: str) -> None:
-    known = {layer.casefold() for layer in found.layers}
+    known = {folded(layer) for layer in found.layers}
     problems = [
         Problem(
             name,
@@ -182,7 +171,7 @@ def _check_layers(found: Drawing2D, ignored: Sequence[str], name: str) -> None:
             "check --ignore-layer",
         )
         for layer in ignored
-        if layer.casefold() not in known
+        if folded(layer) not in known
     ]
     if problems:
         raise InputError(problems)
@@ -199,7 +188,7 @@ def _unit_mm(
     drawing: Drawing, units: str | None, curves: Sequence[DXFEntity], found: Drawing2D, name: str
 ) -> float:
     """Return the length of the drawing's unit (mm)."""
-    said = UNIT_CODES.get(int(drawing.header.get("$INSUNITS", 0)))
+    said = UNIT_CODES.get(drawing.header.get("$INSUNITS", 0))
     if units and said and units != said:
         hint = f"it is read in {units}, as --units says"
         found.notes.append(Problem(name, f"a drawing in {said}", f"one in {units}", hint))
@@ -217,34 +206,46 @@ def _no_unit(curves: Sequence[DXFEntity], name: str) -> Problem:
     return Problem(name, f"a drawing of {drawn} that says no unit", "a unit of length", hint)
 
 
-def _lines_of(entity: DXFEntity, layer: str, mm: float) -> Iterator[Line]:
-    """Yield what an entity draws, in plan view."""
-    from ezdxf import path
+def _lines(curves: Sequence[tuple[DXFEntity, str]], mm: float, name: str) -> list[Line]:
+    """Return what the curves draw.
 
-    curve = path.make_path(entity)
-    for piece in curve.sub_paths() if curve.has_sub_paths else (curve,):
-        points = np.array([(p.x, p.y) for p in piece.flattening(SAG_MM / mm)]) * mm
-        if len(points) > 1 and np.all(np.isfinite(points)):
-            if piece.is_closed:
-                points[-1] = points[0]
-            moved = np.any(np.diff(points, axis=0) != 0, axis=1)
-            points = points[np.concatenate([[True], moved])]
-        if len(points) > 1:
-            yield Line(points, layer)
+    Raises
+    ------
+    InputError
+        With each that cannot be drawn: a hole that is left out would be covered by a cup.
+    """
+    lines, problems = [], []
+    for entity, layer in curves:
+        try:
+            points = chords_of(entity, SAG_MM / mm) * mm
+            sound = bool(np.all(np.abs(points) < MAX_MM))  # also no NaN
+        except (ValueError, TypeError, ArithmeticError, LookupError, AttributeError):
+            sound = False
+        if not sound:
+            hint = "draw it anew in CAD, or leave its layer out with --ignore-layer"
+            where, found = f"{name}, layer {quoted(layer)}", f"a damaged {entity.dxftype()}"
+            handle = entity.dxf.get("handle")
+            found += f" (handle {handle})" if handle else ""
+            problems.append(Problem(where, found, "one with sound coordinates", hint))
+        elif len(points) > 1 and np.ptp(points, axis=0).any():
+            lines.append(Line(points, layer))
+    refuse(problems, name)
+    return lines
 
 
 def _note_left_out(
-    found: Drawing2D, entities: Sequence[tuple[DXFEntity, str]], hidden: set[str], name: str
+    found: Drawing2D, shown: Sequence[tuple[DXFEntity, str]], hidden: AbstractSet[str], name: str
 ) -> None:
     kinds = Counter(
         entity.dxftype()
-        for entity, _ in entities
-        if not _is_curve(entity) and entity.dxftype() not in ANNOTATION
+        for entity, _ in shown
+        if not is_curve(entity) and entity.dxftype() not in ANNOTATION
     )
     if kinds:
         told = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
         hint = "they are left out"
         found.notes.append(Problem(name, f"entities that are no curves ({told})", "none", hint))
-    if hidden:
-        told = f"layers with lines that are switched off ({', '.join(map(quoted, sorted(hidden)))})"
+    layers = ", ".join(quoted(layer) for layer in found.layers if folded(layer) in hidden)
+    if layers:
+        told = f"layers with lines that are switched off ({layers})"
         found.notes.append(Problem(name, told, "none", "they are left out"))
