@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
+import numpy as np
 import pytest
 import shapely
 from ezdxf.document import Drawing
@@ -333,7 +334,9 @@ def test_drawings_without_outlines_are_told(drawn: Callable[..., Path], tmp_path
     (told,) = problems(drawn(lambda space: space.add_3dface([(0, 0, 0), (1, 0, 0), (1, 1, 0)])))
     assert "(1 3DFACE)" in told
     assert len(problems(drawn(lines((0, 0), (10, 0))))) == 2
-    (told,) = problems(drawn(lines((0, 0), (10, 0), (0, 0))))
+    assert len(problems(drawn(lines((0, 0), (10, 0), (0, 0))))) == 2
+    thin = [lines((0, y), (10, 0.01 - y)) for y in (0, 0.01)]  # cross, and are bridged at the ends
+    (told,) = problems(drawn(*thin))
     assert "no closed outline" in told
     (told,) = problems(tmp_path)
     assert "found a folder" in told
@@ -357,3 +360,138 @@ def test_half_a_file_is_told(drawn: Callable[..., Path]) -> None:
         path.write_bytes(content[: int(part * len(content))])
         (told,) = problems(path)
         assert "a drawing that breaks off" in told
+
+
+@pytest.mark.parametrize("radius", [0.02, 15, 200, 5000])
+def test_chords_stray_by_the_sag_at_most(drawn: Callable[..., Path], radius: float) -> None:
+    """On circles and bulges of any size; an ellipse's area by its formula."""
+    half = [(radius, 0, 0, 0, 1), (-radius, 0, 0, 0, 1)]
+    for draw in (circle(0, 0, radius), lambda space: space.add_lwpolyline(half, close=True)):
+        ring = read(drawn(draw)).plan.exterior
+        middles = shapely.get_coordinates(shapely.segmentize(ring, radius / 1000))
+        strays = radius - shapely.distance(shapely.points(0, 0), shapely.points(middles))
+        assert -1e-6 <= strays.min() <= strays.max() <= SAG_MM + 1e-6
+    ellipse = read(drawn(lambda space: space.add_ellipse((0, 0), (0, radius), 0.5))).plan
+    assert ellipse.area == pytest.approx(math.pi * radius**2 / 2, abs=5 * radius * SAG_MM)
+
+
+def test_polylines_of_old_drawings_are_read(drawn: Callable[..., Path]) -> None:
+    """POLYLINE with bulges to either side; mirrored, it lies on the other side."""
+
+    def draw(space: Any) -> None:
+        corners = [(0, 0, 0), (100, 0, 1), (100, 40, 0), (0, 40, -1)]
+        space.add_polyline2d(corners, format="xyb", close=True)
+        mirrored = space.add_polyline2d(corners, format="xyb", close=True)
+        mirrored.dxf.extrusion = (0, 0, -1)
+        mirrored.translate(-300, 0, 0)
+
+    one, other = (read(drawn(draw), part=number).plan for number in (1, 2))
+    assert one.area == pytest.approx(4000, abs=0.01)  # one half circle more, one less
+    left, right = sorted([one.bounds, other.bounds])
+    assert left == pytest.approx((-420, 0, -300, 40), abs=0.05)
+    assert right == pytest.approx((0, 0, 120, 40), abs=0.05)
+
+
+def test_what_a_viewer_hides_is_left_out(drawn: Callable[..., Path]) -> None:
+    """Invisible entities, and all that is inserted on a frozen or ignored layer."""
+
+    def insert(space: Any) -> None:
+        hole = space.doc.blocks.new("HOLE")
+        hole.add_circle((0, 0), 2, dxfattribs={"layer": "CUT"})
+        space.add_blockref("HOLE", (40, 40), {"layer": "FROZEN"})
+        space.add_blockref("HOLE", (60, 40), {"layer": "TOOLS"})
+        space.add_blockref("HOLE", (80, 40))
+
+    path = drawn(
+        PLATE,
+        insert,
+        circle(100, 70, 5, invisible=1),
+        change=lambda drawing: drawing.layers.add("FROZEN").freeze(),
+    )
+    assert len(read(path).plan.interiors) == 2
+    (ring,) = read(path, ignored_layers=("TOOLS",)).plan.interiors
+    assert ring.centroid.x == pytest.approx(80)
+
+
+def test_blocks_that_cannot_be_drawn_are_told(
+    drawn: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A reference to another file is left out with a note; insertions without end are refused."""
+
+    def refer(drawing: Drawing) -> None:
+        drawing.add_xref_def("other.dxf", "OTHER")
+        drawing.modelspace().add_blockref("OTHER", (0, 0))
+
+    part = read(drawn(PLATE, change=refer))
+    assert part.notes[0].found == "entities that are no curves (1 INSERT)"
+
+    def fill(space: Any) -> None:
+        space.doc.blocks.new("DOT").add_circle((0, 0), 1)
+        counts = {"row_count": 32000, "column_count": 32000, "row_spacing": 3, "column_spacing": 3}
+        space.add_blockref("DOT", (0, 0), counts)
+
+    monkeypatch.setattr("grasp_xl.fitment.dxf_lines.MAX_ENTITIES", 1000)
+    (told,) = problems(drawn(PLATE, fill))
+    assert "more than 1,000 entities" in told
+
+
+@pytest.mark.parametrize("noise", [1e-9, 1e-7, 1e-6, 1e-5, 1e-3, 0.015])
+@pytest.mark.parametrize("times", [1, 2])
+def test_rounded_ends_do_no_harm(drawn: Callable[..., Path], noise: float, times: int) -> None:
+    """Lines that end a little too early or late, drawn once or twice, are one outline."""
+    corners = [(0, 0), (100, 10), (120, 80), (50, 100), (-10, 60)]
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+
+        def draw(space: Any, rng: np.random.Generator = rng) -> None:
+            for start, end in times * list(pairwise([*corners, corners[0]])):
+                space.add_line(*(np.array([start, end]) + rng.uniform(-noise, noise, (2, 2))))
+
+        assert read(drawn(draw)).plan.area == pytest.approx(9400, abs=1e-4 + 400 * noise)
+
+
+def test_outlines_that_are_nearly_equal_are_one(drawn: Callable[..., Path]) -> None:
+    """A hole drawn twice is no hole with an island, and a plate drawn twice no frame."""
+    inner = rectangle(10.001, 20.001, 199.998, 99.998)
+    crossing = rectangle(10.001, 20.001, 200, 100)
+    for twice in (inner, crossing):
+        part = read(drawn(PLATE, twice, HOLE, circle(60, 70, 15.002)))
+        assert part.plan.area == pytest.approx(2e4 - math.pi * 15**2, abs=10)
+        assert len(part.plan.interiors) == 1
+
+
+def test_lines_that_end_on_slanted_ones_divide(drawn: Callable[..., Path]) -> None:
+    """A notch drawn from edge to edge is told, wherever its ends lie: not left out in silence."""
+    start, end = np.array([100.0, 0]), np.array([130.0, 77])
+    for one in (0.1, 0.31, 1 / 3):
+        ends = [tuple(start + share * (end - start)) for share in (one, one + 0.37)]
+        outline = [(0, 0), (100, 0), (130, 77), (0, 90), (0, 0)]
+        (told,) = problems(drawn(lines(*outline), lines(ends[0], (80, 30), (85, 40), ends[1])))
+        assert "lines that meet and enclose 2 areas" in told
+
+
+def test_links_between_outlines_are_told(drawn: Callable[..., Path]) -> None:
+    """A line from an outline to another one is an edge of none."""
+    link = lines((210, 50), (300, 50), layer="LINK")
+    (told,) = problems(drawn(PLATE, rectangle(300, 0, 50, 100), link))
+    assert "a line that links others" in told
+    assert "layer 'LINK'" in told
+
+
+def test_open_lines_in_a_hole_are_left_out(drawn: Callable[..., Path]) -> None:
+    """With a note, as no element can stand there; on the part or beside it they are told."""
+    stroke = lines((59, 70), (60, 70))
+    part = read(drawn(PLATE, HOLE, stroke))
+    assert len(part.plan.interiors) == 1
+    assert part.notes[0].found == "an open line in a hole"
+    assert len(problems(drawn(PLATE, HOLE, lines((100, 70), (101, 70))))) == 2
+    assert len(problems(drawn(PLATE, HOLE, lines((300, 70), (301, 70))))) == 2
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, 1e300])
+def test_damaged_curves_are_told(drawn: Callable[..., Path], value: float) -> None:
+    """Coordinates that are no numbers, or of another world; a hole is not left out in silence."""
+    draw = [lines((0, 0), (value, 3)), circle(60, 70, value), circle(value, 70, 2)]
+    for one in draw:
+        told = problems(drawn(PLATE, one))
+        assert "damaged" in told[0] or "no DXF drawing" in told[0]

@@ -48,7 +48,7 @@ def read_dxf(
     """
     name = str(path)
     drawing, content = read_lines(path, units, ignored_layers)
-    outlines = outlines_of(drawing.lines, gap_mm, name)
+    outlines, notes = outlines_of(drawing.lines, gap_mm, name)
     outline = _chosen(outlines, part, name)
     middle = outline.centroid
     return CadPart(
@@ -58,7 +58,7 @@ def read_dxf(
         frozen([middle.x, middle.y, thickness_mm / 2]),
         (Face(outline, thickness_mm),),
         outline,
-        tuple(drawing.notes),
+        (*drawing.notes, *notes),
     )
 
 

@@ -1,45 +1,84 @@
-"""From lines to outlines with holes: gaps closed, what is open or crossed told, parts nested."""
+"""From lines to outlines with holes: what is open or crossed is told, the rest is nested."""
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from shapely import LineString, Point, Polygon, STRtree
+from shapely import LineString, Polygon, STRtree
 
 from grasp_xl.errors import Problem, refuse
-from grasp_xl.fitment.dxf_lines import Line
+from grasp_xl.fitment.dxf_lines import SAG_MM, Line
+from grasp_xl.fitment.gaps import SAME_MM, Pieces, both_ends, joined
 from grasp_xl.printable import quoted
 from grasp_xl.space import FloatArray
 
-SAME_MM = 1e-6
-"""Ends that are nearer to each other meet: files keep so many decimals, or fewer."""
+TWICE_MM = 2 * SAG_MM
+"""Outlines that stray no farther from each other are one: each strays from its curve by the sag."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Ends:
-    """Ends of lines that meet no other.
+class _Figure:
+    """Lines that meet.
 
     Parameters
     ----------
-    places_mm : FloatArray
-        ``(n, 2)`` array.
-    layers : list of str
+    areas : list of Polygon
+        That they enclose, the largest first; one, if they are an outline.
+    open_chains : list of LineString
+        That end somewhere.
+    open_ends_mm : FloatArray
+        ``(n, 2)`` array: where they do.
+    links : list of LineString
+        That have an area at neither side, and end nowhere.
     """
 
-    places_mm: FloatArray
-    layers: list[str]
+    areas: list[Polygon]
+    open_chains: list[LineString]
+    open_ends_mm: FloatArray
+    links: list[LineString]
 
 
-def outlines_of(lines: Sequence[Line], gap_mm: float, name: str) -> list[Polygon]:
-    """Return the outlines of all parts, with their holes, the largest first.
+@dataclass(frozen=True, eq=False, slots=True)
+class _Places:
+    """Names places of a drawing for messages.
+
+    Parameters
+    ----------
+    lines : sequence of Line
+    drawn : STRtree
+        Of them.
+    name : str
+        Of the file.
+    near_mm : float
+        How far from it lines can be.
+    """
+
+    lines: Sequence[Line]
+    drawn: STRtree
+    name: str
+    near_mm: float
+
+    def told(self, place: FloatArray) -> str:
+        """Return file, layers and coordinates."""
+        x, y = place
+        near = self.drawn.query(shapely.points(place), "dwithin", self.near_mm)
+        layers = sorted({quoted(self.lines[number].layer) for number in near})
+        return f"{self.name}, layer {', '.join(layers)}, x {x:.6g} y {y:.6g} mm"
+
+
+def outlines_of(
+    lines: Sequence[Line], gap_mm: float, name: str
+) -> tuple[list[Polygon], list[Problem]]:
+    """Return the outlines of all parts, with their holes, the largest first; and notes.
 
     Lines that meet are one figure; figures nest by even-odd: one in none is a part, one in a part a
-    hole, one in a hole a part again.
+    hole, one in a hole a part again.  Open lines in a hole are left out with a note: whatever they
+    are, no element can stand there.
 
     Parameters
     ----------
@@ -54,120 +93,158 @@ def outlines_of(lines: Sequence[Line], gap_mm: float, name: str) -> list[Polygon
     InputError
         With every outline that is open, or that other lines cross or divide.
     """
-    drawn, layers = _snapped(lines)
-    bridges, ends = _bridged(drawn, layers, max(gap_mm, 2 * SAME_MM))
-    pieces = shapely.get_parts(shapely.union_all([*drawn, *bridges]))
-    refuse(_open_ends(ends, pieces, name), name)
-    figures = _figures(pieces)
-    refuse([problem for figure in figures for problem in _divided(figure, lines, name)], name)
-    return _nested([areas[0] for areas in figures])
+    drawn = np.array([LineString(line.points_mm) for line in lines], dtype=object)
+    pieces = joined(drawn, gap_mm)
+    thin = gap_mm + SAG_MM
+    figures = [_figure(group, thin) for group in _that_meet(pieces)]
+    places = _Places(lines, STRtree(drawn), name, gap_mm + SAME_MM)
+    closed = _once([Polygon(one.areas[0].exterior) for one in figures if one.areas])
+    idle, open_ones = _by_where_they_are([one for one in figures if one.open_chains], closed)
+    ends = np.concatenate([np.empty((0, 2)), *(figure.open_ends_mm for figure in open_ones)])
+    told = [_open_end(number, ends, places) for number in range(len(ends))]
+    refuse([*told, *_divided(figures, places)], name)
+    notes = [_note(figure.open_chains[0], places) for figure in idle]
+    return _nested(closed), notes
 
 
-def _snapped(lines: Sequence[Line]) -> tuple[NDArray[np.object_], list[str]]:
-    """Return lines and their layers, all points on one fine raster: ends that meet are equal."""
-    drawn = shapely.set_precision(
-        [LineString(line.points_mm) for line in lines], SAME_MM, mode="pointwise"
-    )
-    long = shapely.length(drawn) > 0
-    layers = [line.layer for line, kept in zip(lines, long, strict=True) if kept]
-    return drawn[long], layers
-
-
-def _bridged(
-    drawn: NDArray[np.object_], layers: Sequence[str], gap_mm: float
-) -> tuple[list[LineString], _Ends]:
-    """Return bridges over gaps between open ends, the narrowest first, and the ends left open."""
-    first, last = shapely.get_point(drawn, 0), shapely.get_point(drawn, -1)
-    places = shapely.get_coordinates(np.concatenate([first, last]))
-    of_layers = [*layers, *layers]
-    _, inverse, counts = np.unique(places, axis=0, return_inverse=True, return_counts=True)
-    (alone,) = np.nonzero(counts[inverse.ravel()] == 1)
-    places, of_layers = places[alone], [of_layers[number] for number in alone]
-    points = shapely.points(places)
-    pairs = STRtree(points).query(points, predicate="dwithin", distance=gap_mm).T
-    pairs = pairs[pairs[:, 0] < pairs[:, 1]]
-    gaps = np.linalg.norm(places[pairs[:, 0]] - places[pairs[:, 1]], axis=1)
-    bridges, taken = [], np.zeros(len(places), dtype=bool)
-    for one, other in pairs[np.argsort(gaps, kind="stable")]:
-        if not taken[one] and not taken[other]:
-            taken[[one, other]] = True
-            bridges.append(LineString([places[one], places[other]]))
-    left = np.flatnonzero(~taken)
-    return bridges, _Ends(places[left], [of_layers[number] for number in left])
-
-
-def _open_ends(ends: _Ends, noded: NDArray[np.object_], name: str) -> list[Problem]:
-    """Return a problem for each end that no line touches, with the gap to the nearest end."""
-    if not len(ends.places_mm):
+def _that_meet(pieces: Pieces) -> Iterable[Pieces]:
+    """Yield the pieces of each figure."""
+    if not len(pieces):
         return []
-    touches = STRtree(noded).query(shapely.points(ends.places_mm), "dwithin", SAME_MM)[0]
-    open_ones = np.flatnonzero(np.bincount(touches, minlength=len(ends.places_mm)) < 2)
-    problems = []
-    for number in open_ones:
-        x, y = ends.places_mm[number]
-        others = np.delete(ends.places_mm, number, axis=0)
-        gap = np.min(np.linalg.norm(others - ends.places_mm[number], axis=1), initial=np.inf)
-        told = f"{gap:.3g} mm from the next open end" if np.isfinite(gap) else "with no other"
-        layer = ends.layers[number]
-        problems.append(
-            Problem(
-                f"{name}, layer {quoted(layer)}, x {x:.6g} y {y:.6g} mm",
-                f"an outline that ends there, {told}",
-                "closed outlines",
-                "close it in CAD, raise --gap, or leave its layer out with --ignore-layer",
-            )
-        )
-    return problems
+    _, nodes = np.unique(both_ends(pieces), axis=0, return_inverse=True)
+    pairs = nodes.reshape(-1, 2)
+    figure = _groups(1 + int(pairs.max()), pairs)[pairs[:, 0]]
+    order = np.argsort(figure, kind="stable")
+    return np.split(pieces[order], np.flatnonzero(np.diff(figure[order])) + 1)
 
 
-def _figures(pieces: NDArray[np.object_]) -> list[list[Polygon]]:
-    """Return the areas that each figure of lines that meet encloses."""
-    ends = shapely.get_coordinates(
-        np.concatenate([shapely.get_point(pieces, 0), shapely.get_point(pieces, -1)])
-    )
-    _, nodes = np.unique(ends, axis=0, return_inverse=True)
-    first, last = np.split(nodes.ravel(), 2)
-    members: dict[int, list[LineString]] = defaultdict(list)
-    root = _roots(first.tolist(), last.tolist())
-    for piece, node in zip(pieces, first.tolist(), strict=True):
-        members[root[node]].append(piece)
-    found = (shapely.get_parts(shapely.polygonize(group)) for group in members.values())
-    return [list(areas) for areas in found if len(areas)]
-
-
-def _roots(first: Sequence[int], last: Sequence[int]) -> list[int]:
-    """Return, for each node, one node that stands for all that edges join with it."""
-    root = list(range(1 + max(*first, *last)))
+def _groups(count: int, pairs: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return, for each of so many nodes, one of those that edges join with it."""
+    root = list(range(count))
 
     def find(node: int) -> int:
         while root[node] != node:
             root[node] = node = root[root[node]]
         return node
 
-    for one, other in zip(first, last, strict=True):
+    for one, other in pairs.tolist():
         root[find(one)] = find(other)
-    return [find(node) for node in range(len(root))]
+    return np.array([find(node) for node in range(count)], dtype=np.intp)
 
 
-def _divided(areas: Sequence[Polygon], lines: Sequence[Line], name: str) -> list[Problem]:
-    """Return a problem where the lines of a figure enclose several areas.
+def _figure(pieces: Pieces, thin: float) -> _Figure:
+    """Return what lines that meet enclose.
+
+    Areas too thin to hold anything lie between lines that are drawn twice, or that cross where they
+    should end; lines as short as that stick out there.
+    """
+    areas, links, open_ones, _ = (
+        shapely.get_parts(each) for each in shapely.polygonize_full(pieces)
+    )
+    if len(areas) > 1:
+        areas = areas[~shapely.is_empty(shapely.buffer(areas, -thin / 2))]
+    areas = areas[np.argsort(-shapely.area(areas), kind="stable")]
+    chains = _long(open_ones, thin)
+    return _Figure(list(areas), list(chains), _open_ends(chains, pieces), list(_long(links, thin)))
+
+
+def _long(pieces: Pieces, thin: float) -> Pieces:
+    if not len(pieces):
+        return pieces
+    chains = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(pieces)))
+    return np.array(chains[shapely.length(chains) > thin], dtype=object)
+
+
+def _open_ends(chains: Pieces, pieces: Pieces) -> FloatArray:
+    """Return the ends of chains that are ends of one piece alone."""
+    if not len(chains):
+        return np.empty((0, 2))
+    ends, counts = np.unique(both_ends(pieces), axis=0, return_counts=True)
+    single = set(map(tuple, ends[counts == 1].tolist()))
+    found = [end for end in both_ends(chains).tolist() if tuple(end) in single]
+    return np.array(found) if found else both_ends(chains)[:1]
+
+
+def _once(figures: Sequence[Polygon]) -> list[Polygon]:
+    """Return the figures, the largest first, without those that nearly are another one."""
+    if not figures:
+        return []
+    found = np.array(sorted(figures, key=lambda one: -one.area), dtype=object)
+    bounds = shapely.bounds(found).reshape(-1, 4)
+    corners = shapely.points(bounds[:, :2])
+    one, other = STRtree(corners).query(corners, predicate="dwithin", distance=2 * TWICE_MM)
+    like = (one < other) & np.all(np.abs(bounds[one] - bounds[other]) <= TWICE_MM, axis=1)
+    one, other = one[like], other[like]
+    rings = shapely.get_exterior_ring(found)
+    twice = other[shapely.hausdorff_distance(rings[one], rings[other]) <= TWICE_MM]
+    return list(np.delete(found, twice))
+
+
+def _by_where_they_are(
+    figures: Sequence[_Figure], closed: Sequence[Polygon]
+) -> tuple[list[_Figure], list[_Figure]]:
+    """Return the open figures that lie in a hole, and the others."""
+    drawn = np.array([shapely.union_all(one.open_chains) for one in figures], dtype=object)
+    inside, _ = STRtree(list(closed)).query(drawn, predicate="within")
+    depth = np.bincount(inside, minlength=len(figures))
+    in_holes = [
+        not figure.areas and depth[number] > 0 and depth[number] % 2 == 0
+        for number, figure in enumerate(figures)
+    ]
+    return (
+        [figure for figure, idle in zip(figures, in_holes, strict=True) if idle],
+        [figure for figure, idle in zip(figures, in_holes, strict=True) if not idle],
+    )
+
+
+def _note(chain: LineString, places: _Places) -> Problem:
+    return Problem(
+        places.told(shapely.get_coordinates(chain)[0]),
+        "an open line in a hole",
+        "closed outlines",
+        "it is left out",
+    )
+
+
+def _open_end(number: int, ends: FloatArray, places: _Places) -> Problem:
+    """Return the problem of an open end, with the gap to the nearest other."""
+    others = np.delete(ends, number, axis=0)
+    gap = np.min(np.linalg.norm(others - ends[number], axis=1), initial=np.inf)
+    told = f"{gap:.3g} mm from the next open end" if np.isfinite(gap) else "with no other"
+    return Problem(
+        places.told(ends[number]),
+        f"an outline that ends there, {told}",
+        "closed outlines",
+        "close it in CAD, raise --gap, or leave its layer out with --ignore-layer",
+    )
+
+
+def _divided(figures: Sequence[_Figure], places: _Places) -> list[Problem]:
+    """Return a problem where the lines of a figure enclose several areas, or link two.
 
     They may be bend lines, holes that touch an edge, or outlines that cross: nobody can tell.
     """
-    if len(areas) == 1:
-        return []
-    edge = areas[0].boundary.intersection(shapely.union_all([a.boundary for a in areas[1:]]))
-    x, y = edge.representative_point().coords[0]
-    near = [line.layer for line in lines if LineString(line.points_mm).dwithin(Point(x, y), 1e-3)]
-    layers = ", ".join(quoted(layer) for layer in dict.fromkeys(near))
-    return [
-        Problem(
-            f"{name}, layer {layers}, x {x:.6g} y {y:.6g} mm",
-            f"lines that meet and enclose {len(areas)} areas",
-            "outlines that neither touch nor cross each other",
-            "leave out the layer of bend lines or engravings with --ignore-layer",
-        )
-    ]
+    problems = []
+    for figure in figures:
+        if figure.links:
+            place = figure.links[0].interpolate(0.5, normalized=True)
+            found = "a line that links others, and is no edge of an area"
+        elif len(figure.areas) > 1:
+            place = _edge_between(figure.areas).representative_point()
+            found = f"lines that meet and enclose {len(figure.areas)} areas"
+        else:
+            continue
+        expected = "outlines that neither touch nor cross each other"
+        hint = "leave out the layer of bend lines or engravings with --ignore-layer"
+        problems.append(Problem(places.told(np.array(place.coords[0])), found, expected, hint))
+    return problems
+
+
+def _edge_between(areas: Sequence[Polygon]) -> shapely.Geometry:
+    """Return where the largest of several areas touches others, or the next one."""
+    others = shapely.union_all([area.boundary for area in areas[1:]])
+    edge = areas[0].boundary.intersection(others)
+    return areas[1].boundary if edge.is_empty else edge
 
 
 def _nested(figures: Sequence[Polygon]) -> list[Polygon]:
@@ -192,6 +269,7 @@ def _nested(figures: Sequence[Polygon]) -> list[Polygon]:
 
     def key(part: Polygon) -> tuple[float, float, float]:
         x_low, y_low, x_high, y_high = (round(each, 3) for each in part.bounds)
-        return -round(part.area, 3), -x_low - x_high, -y_low - y_high
+        size = float(f"{part.area:.5g}")  # that of equal parts is equal
+        return -size, -x_low - x_high, -y_low - y_high
 
     return sorted(parts, key=key)
