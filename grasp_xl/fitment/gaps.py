@@ -45,8 +45,41 @@ def both_ends(pieces: Pieces) -> FloatArray:
     return np.array(shapely.get_coordinates(ends), dtype=float)
 
 
+def groups_of(count: int, pairs: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return, for each of so many things, the first of those that pairs join with it.
+
+    Examples
+    --------
+    >>> groups_of(5, np.array([[3, 1], [4, 3]])).tolist()
+    [0, 1, 2, 1, 1]
+    """
+    root = list(range(count))
+
+    def find(one: int) -> int:
+        while root[one] != one:
+            root[one] = one = root[root[one]]
+        return one
+
+    for pair in pairs[pairs[:, 0] != pairs[:, 1]].tolist():
+        low, high = sorted(map(find, pair))
+        root[high] = low
+    return np.array([find(one) for one in range(count)], dtype=np.intp)
+
+
+def in_groups(pieces: Pieces, group: NDArray[np.intp]) -> list[Pieces]:
+    """Return the pieces of each group."""
+    order = np.argsort(group, kind="stable")
+    return np.split(pieces[order], np.flatnonzero(np.diff(group[order])) + 1)
+
+
 def _cut(lines: Pieces) -> Pieces:
-    return np.array(shapely.get_parts(shapely.union_all(lines, grid_size=GRID_MM)), dtype=object)
+    """Return lines cut where they meet; one group that touches at a time, as that is quick."""
+    near = STRtree(lines).query(lines, predicate="dwithin", distance=SAME_MM).T
+    groups = in_groups(lines, groups_of(len(lines), near))
+    return np.array(
+        shapely.get_parts([shapely.union_all(group, grid_size=GRID_MM) for group in groups]),
+        dtype=object,
+    )
 
 
 def _bridges(pieces: Pieces, reach: float) -> Pieces:

@@ -8,12 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 from shapely import LineString, Polygon, STRtree
 
 from grasp_xl.errors import Problem, refuse
 from grasp_xl.fitment.dxf_lines import SAG_MM, Line
-from grasp_xl.fitment.gaps import SAME_MM, Pieces, both_ends, joined
+from grasp_xl.fitment.gaps import SAME_MM, Pieces, both_ends, groups_of, in_groups, joined
 from grasp_xl.printable import quoted
 from grasp_xl.space import FloatArray
 
@@ -113,23 +112,7 @@ def _that_meet(pieces: Pieces) -> Iterable[Pieces]:
         return []
     _, nodes = np.unique(both_ends(pieces), axis=0, return_inverse=True)
     pairs = nodes.reshape(-1, 2)
-    figure = _groups(1 + int(pairs.max()), pairs)[pairs[:, 0]]
-    order = np.argsort(figure, kind="stable")
-    return np.split(pieces[order], np.flatnonzero(np.diff(figure[order])) + 1)
-
-
-def _groups(count: int, pairs: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return, for each of so many nodes, one of those that edges join with it."""
-    root = list(range(count))
-
-    def find(node: int) -> int:
-        while root[node] != node:
-            root[node] = node = root[root[node]]
-        return node
-
-    for one, other in pairs.tolist():
-        root[find(one)] = find(other)
-    return np.array([find(node) for node in range(count)], dtype=np.intp)
+    return in_groups(pieces, groups_of(1 + int(pairs.max()), pairs)[pairs[:, 0]])
 
 
 def _figure(pieces: Pieces, thin: float) -> _Figure:
