@@ -495,3 +495,17 @@ def test_damaged_curves_are_told(drawn: Callable[..., Path], value: float) -> No
     for one in draw:
         told = problems(drawn(PLATE, one))
         assert "damaged" in told[0] or "no DXF drawing" in told[0]
+
+
+def test_a_frame_around_a_part_is_noted(drawn: Callable[..., Path]) -> None:
+    """A rectangle that is more hole than part; without its layer the part is found, and no note."""
+    frame = rectangle(0, 0, 250, 150, layer="FRAME")
+    path = drawn(frame, PLATE)
+    part = read(path)
+    assert part.notes[0].found == "a rectangle with a hole of 53% of its area"
+    assert "--ignore-layer" in part.notes[0].hint
+    part = read(path, ignored_layers=("FRAME",))
+    assert part.plan.equals(box(10, 20, 210, 120))
+    assert part.notes == ()
+    (told,) = problems(drawn(frame, PLATE, HOLE))
+    assert "a frame around them is left out with --ignore-layer" in told

@@ -58,8 +58,19 @@ def read_dxf(
         frozen([middle.x, middle.y, thickness_mm / 2]),
         (Face(outline, thickness_mm),),
         outline,
-        (*drawing.notes, *notes),
+        (*drawing.notes, *notes, *_perhaps_a_frame(outline, name)),
     )
+
+
+def _perhaps_a_frame(outline: Polygon, name: str) -> list[Problem]:
+    """Return a note on a rectangle that is more hole than part: a sheet's frame looks like that."""
+    holes = [Polygon(ring).area for ring in outline.interiors]
+    whole = Polygon(outline.exterior)
+    if whole.area < 0.999 * whole.envelope.area or max(holes, default=0) < whole.area / 2:
+        return []
+    found = f"a rectangle with a hole of {max(holes) / whole.area:.0%} of its area"
+    hint = "if it is the frame of a sheet, leave its layer out with --ignore-layer"
+    return [Problem(name, found, "a part", hint)]
 
 
 def _chosen(outlines: Sequence[Polygon], part: int | None, name: str) -> Polygon:
@@ -75,7 +86,8 @@ def _chosen(outlines: Sequence[Polygon], part: int | None, name: str) -> Polygon
     found = f"{len(outlines)} part{'s' if len(outlines) > 1 else ''} ({listed}"
     found += f"; and {more} more)" if more > 0 else ")"
     expected = "one" if part is None else f"a part {part}"
-    raise InputError([Problem(name, found, expected, "name one of them with --part")])
+    hint = "name one of them with --part; a frame around them is left out with --ignore-layer"
+    raise InputError([Problem(name, found, expected, hint)])
 
 
 def _told(number: int, outline: Polygon) -> str:
