@@ -6,6 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+from shapely import MultiPolygon, Polygon
+
 from grasp_xl.errors import UsageError
 from grasp_xl.fitment.catalogue import Catalogue, find, read_catalogue
 from grasp_xl.fitment.element import Element, Kind
@@ -14,7 +17,7 @@ from grasp_xl.fitment.fitting import Choice, Fitment, Fitted, fit
 from grasp_xl.fitment.material import MATERIALS, USUAL, Material
 from grasp_xl.fitment.part import CadPart, in_order, rings_of
 from grasp_xl.fitment.part_file import Reading, read_part
-from grasp_xl.space import FloatArray
+from grasp_xl.space import FloatArray, frozen
 from grasp_xl.workbook.part_sheet import WHOLE, FaceOutline, PartRecord
 from grasp_xl.workbook.saving import check_place, check_target, save
 from grasp_xl.workbook.writing import export_workbook
@@ -25,6 +28,8 @@ PICTURE_SUFFIX = ".svg"
 CUP, MAGNET = "cup", "magnet"
 """How options begin that are about one kind."""
 
+PLACE_DECIMALS, AREA_DECIMALS = 6, 3
+"""Lengths (mm), areas and volumes of the sheet ``Part`` are rounded: any program keeps them so."""
 
 USUAL_COUNT = (1, 5)
 """Fewest and most elements of a kind (section 4.1)."""
@@ -138,7 +143,7 @@ def _record(request: Request, part: CadPart, fitted: Fitted) -> PartRecord:
         ("Axis that looks up", reading.up),
         ("Units", reading.units),
         ("Sheet thickness (mm)", reading.thickness_mm),
-        ("Volume (mm3)", part.volume_mm3),
+        ("Volume (mm3)", round(part.volume_mm3, AREA_DECIMALS)),
         ("Material", material.name if material else None),
         ("Density (g/cm3)", mass.density_g_cm3),
         ("Mass given (g)", mass.mass_g),
@@ -151,7 +156,7 @@ def _record(request: Request, part: CadPart, fitted: Fitted) -> PartRecord:
     if request.min_overlap:
         facts.append(("Least overlap of a magnet", request.min_overlap))
     faces = dict.fromkeys((*fitted.cup_faces, *fitted.magnet_faces))
-    outlines = [FaceOutline(WHOLE, None, part.plan.area, "", rings_of(part.plan))]
+    outlines = [_outline(WHOLE, None, "", part.plan)]
     for number, face in enumerate(in_order(faces), 1):
         uses = [
             kind.name
@@ -160,10 +165,16 @@ def _record(request: Request, part: CadPart, fitted: Fitted) -> PartRecord:
             )
             if face in on
         ]
-        area, rings = face.outline.area, rings_of(face.outline)
-        outlines.append(FaceOutline(number, face.height_mm, area, ", ".join(uses), rings))
+        outlines.append(_outline(number, face.height_mm, ", ".join(uses), face.outline))
     known = ((label, value) for label, value in facts if value is not None)
     return PartRecord(tuple(known), tuple(outlines))
+
+
+def _outline(
+    number: int, height_mm: float | None, used_for: str, area: Polygon | MultiPolygon
+) -> FaceOutline:
+    rings = tuple(frozen(np.round(ring, PLACE_DECIMALS) + 0.0) for ring in rings_of(area))
+    return FaceOutline(number, height_mm, round(area.area, AREA_DECIMALS), used_for, rings)
 
 
 def list_faces(path: Path, reading: Reading, picture: Path, *, force: bool) -> CadPart:
