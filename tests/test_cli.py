@@ -737,7 +737,7 @@ def test_solve_knows_what_goals_no_grasp_meets(gx: Any, bracket: Path) -> None:
     told = gx("solve", bracket, "--goals", "110,5000,30,1000", "--meet-goals", "--json")
     assert told.code == 4
     assert told.json["status"] == "infeasible"
-    assert "the moment goal of 5,000 N-mm is below its floor of 5,121.63 N-mm" in told.json["error"]
+    assert "the moment goal of 5,000 N-mm is below its floor of 5,127.58 N-mm" in told.json["error"]
     assert "moment goal: found 5,000 N-mm" in told.err
     raised = told.json["hint"].split()[5].replace(",", "")
     told = gx("solve", bracket, "--goals", f"110,{raised},30,1000", "--meet-goals", "--json")
@@ -750,7 +750,7 @@ def test_a_goal_below_its_floor_is_named(gx: Any, bracket: Path, command: str) -
     """With the plan arm the same goal is none too low."""
     words = (command, bracket, "--goals", "100,5000,30,1000", "--json")
     words += ("--generations", "5") if command == "run" else ()
-    assert "have a moment below 5,121.63 N-mm with the 3d arm; raise the goal" in gx(*words).err
+    assert "have a moment below 5,127.58 N-mm with the 3d arm; raise the goal" in gx(*words).err
     assert "moment goal" not in gx(*words, "--moment-arm", "plan").err
 
 

@@ -107,6 +107,7 @@ def test_somebodys_own_sheet_of_that_name_is_theirs(tmp_path: Path) -> None:
     """It is not ours by its name alone: replacing the workbook names it as a loss."""
     path = tmp_path / "own.xlsx"
     opened = openpyxl.load_workbook(SAMPLE)
+    del opened[PART_SHEET]
     opened.create_sheet(PART_SHEET)["A1"] = "my notes"
     opened.save(path)
     assert read_book(path).part is None

@@ -162,7 +162,7 @@ def test_run_says_how_far_the_genetic_search_was_from_the_optimum(
     out = capsys.readouterr().out
     assert "Proved optimum" in out
     assert re.search(
-        r"Proved: no grasp has a divergence below 3\.09026 \(.* s\)\. "
+        r"Proved: no grasp has a divergence below 3\.09015 \(.* s\)\. "
         r"The best of the genetic run lies 0\.\d+, [\d.]+ % above it\.",
         out,
     )

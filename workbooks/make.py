@@ -1,4 +1,4 @@
-"""Make the sample workbooks: each part's input, and beside it the result of 50,000 generations.
+"""Make the sample parts: of each the solid, the workbook, and the result of 50,000 generations.
 
 Run ``python workbooks/make.py`` to write them anew beside this file, or name a folder.
 """
@@ -9,27 +9,35 @@ import sys
 import tempfile
 from pathlib import Path
 
-from parts import SamplePart, sample_parts
+from parts import SAMPLE_PARTS, SamplePart
+from shapes import write_step
 
+from grasp_xl.commands.fit import fit_file
 from grasp_xl.commands.new import make_workbook
 from grasp_xl.commands.output import Output
 from grasp_xl.commands.run import run_file
 from grasp_xl.commands.solve import prove_run
 from grasp_xl.search.stop import Generations
 from grasp_xl.task import Parameters
-from grasp_xl.workbook.writing import export_workbook
 
 PROVE_SECONDS = 10.0
 """Longest proof, as by default; every sample needs less."""
 
 
-def make_input(part: SamplePart, folder: Path) -> Path:
-    """Write the full workbook of a part, with the designer's grasp in it."""
-    book = folder / f"{part.name}.xlsx"
+def make_step(part: SamplePart, folder: Path) -> Path:
+    """Model a part and write its solid."""
+    step = folder / f"{part.name}.step"
+    write_step(part.model(), part.name, step)
+    return step
+
+
+def make_input(part: SamplePart, step: Path) -> Path:
+    """Fit the elements on a solid, and write its full workbook with the designer's grasp in it."""
+    book = step.with_suffix(".xlsx")
     with tempfile.TemporaryDirectory() as exports:
         export = Path(exports) / f"{part.name}-export.xlsx"
-        export.write_bytes(export_workbook(part.space).content)
-        grasp = (part.designer_suction, part.designer_magnets)
+        fitted = fit_file(part.request(step), export, force=True).fitted
+        grasp = part.designer_grasp(fitted.space)
         make_workbook(export, Parameters(), Output(book, force=True), grasp)
     return book
 
@@ -48,10 +56,11 @@ def make_result(book: Path) -> Path:
 
 
 def main(folder: Path) -> None:
-    """Write the workbooks of all sample parts."""
-    for part in sample_parts():
-        book = make_input(part, folder)
-        print(f"{part.title}: {book.name}, {make_result(book).name}")
+    """Write the files of all sample parts."""
+    for part in SAMPLE_PARTS:
+        step = make_step(part, folder)
+        book = make_input(part, step)
+        print(f"{part.title}: {step.name}, {book.name}, {make_result(book).name}")
 
 
 if __name__ == "__main__":
