@@ -22,7 +22,8 @@ from grasp_xl.workbook.stamp import is_untouched
 
 SAMPLE = Path(__file__).parents[1] / "workbooks" / "bracket.xlsx"
 SHORT = ("--generations", "20", "--no-prove", "--quiet")
-FULL = len(SHEETS) + 1
+FULL = len(SHEETS) + 2
+"""Sheets of the sample with buttons: it was fitted, so it has the sheet Part."""
 PART = f"xl/worksheets/sheet{FULL}.xml"
 """Of the sheet with the settings."""
 

@@ -20,7 +20,6 @@ from grasp_xl.macros import MODULES, PROJECTS, project
 from grasp_xl.macros.build import build
 from grasp_xl.workbook.book import read_book
 from grasp_xl.workbook.layout import SHEETS
-from grasp_xl.workbook.part_sheet import PartRecord
 from grasp_xl.workbook.writing import export_workbook
 
 ROOT = Path(__file__).parent.parent
@@ -33,7 +32,6 @@ DIGESTS = {
     FULL + 1: "8717f09f95b2a2e122ed7dc5e1f7855391d9c660604017c8968cc4ed9d9c9f46",
     FULL + 2: "ec2dc306ce3b137cb9ef09219f0293a356b4422cb661b1028cdc6ffbe3c89890",
 }
-RECORD = PartRecord((("Source file", "part.step"),), ())
 MACROS = {"CheckGrasp": "check", "RunGrasp": "run", "ProveGrasp": "prove", "StopGrasp": "stop"}
 
 LIBRARY = "VBAProject"
@@ -78,8 +76,8 @@ def books(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Path]:
     folder = tmp_path_factory.mktemp("macros")
     full, fitted, front = (folder / f"{name}.xlsm" for name in ("full", "fitted", "front"))
     export = folder / "export.xlsx"
-    export.write_bytes(export_workbook(read_book(SAMPLE).space, RECORD).content)
-    for made, source in ((full, SAMPLE), (fitted, export)):
+    export.write_bytes(export_workbook(read_book(SAMPLE).space).content)
+    for made, source in ((full, export), (fitted, SAMPLE)):
         assert main(["new", str(source), "-o", str(made), "--quiet"]) == 0
     assert main(["front", str(fitted), "-o", str(front), "--grid", "1", "--quiet"]) == 0
     return {FULL: full, FULL + 1: fitted, FULL + 2: front}

@@ -16,7 +16,6 @@ from shapes import Shape, common, cut, fuse, one_solid, prism
 FAR = 1000.0
 """Holes are drilled from here on one side of a part to here on the other (mm)."""
 
-BRACKET_SHEET_MM = 10.0
 DOOR_SHEET_MM = 1.6
 PANEL_SHEET_MM = 3.0
 COVER_SHEET_MM = 2.5
