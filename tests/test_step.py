@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -205,6 +206,19 @@ def test_what_is_no_step_file_is_told(tmp_path: Path, content: bytes, told: str)
     path = tmp_path / "part.step"
     path.write_bytes(content)
     assert told in problem(path)
+
+
+def test_a_damaged_file_is_told_before_the_library_crashes(step: Any) -> None:
+    """A reference to nothing, or to an entity of another kind, is a fault of the file."""
+    path = step(PLATE)
+    text = path.read_text(encoding="utf-8")
+    for wrong in (
+        re.sub(r"(ADVANCED_FACE\('',\(#\d+\),#)\d+", r"\g<1>999999", text, count=1),
+        re.sub(r"(VERTEX_POINT\('',#)\d+", r"\g<1>1", text, count=1),
+    ):
+        assert wrong != text
+        path.write_text(wrong, encoding="utf-8")
+        assert "that OpenCASCADE cannot read (" in problem(path)
 
 
 def test_nothing_is_printed_by_the_library(tmp_path: Path) -> None:

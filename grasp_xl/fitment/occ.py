@@ -93,15 +93,37 @@ def read_solids(path: Path) -> tuple[list[Solid], int]:
     """
     for printer in list(Message.DefaultMessenger_s().Printers()):
         Message.DefaultMessenger_s().RemovePrinter(printer)  # it writes to standard output
-    reader = STEPControl_Reader()  # converts all lengths to mm
-    if reader.ReadFile(str(path)) != IFSelect_RetDone or not reader.TransferRoots():
-        raise ReadError
-    shape = reader.OneShape()
-    if shape.IsNull():
-        raise ReadError
+    shape = _shape_of(path)
     solids = [_solid(TopoDS.Solid(each)) for each in _parts(shape, TopAbs_SOLID)]
     solids.sort(key=lambda solid: (-solid.volume_mm3, *solid.centroid_mm.tolist()))
     return solids, sum(1 for _ in _parts(shape, TopAbs_FACE))
+
+
+def _shape_of(path: Path) -> Shape:
+    """Return all that a file holds as one shape, with all lengths in mm."""
+    reader = STEPControl_Reader()
+    try:
+        if reader.ReadFile(str(path)) == IFSelect_RetDone:
+            _refuse_faults(reader)
+            reader.TransferRoots()
+        shape = reader.OneShape()
+    except ReadError:
+        raise
+    except Exception as error:  # of the kernel, which have no common base
+        raise ReadError(str(error)) from error
+    if shape.IsNull():
+        raise ReadError("it holds no shape")
+    return shape
+
+
+def _refuse_faults(reader: Any) -> None:  # noqa: ANN401 (OCP has no types)
+    """Raise the first fault of a file: the kernel crashes where it makes shapes of one."""
+    checks = reader.WS().ModelCheckList(True)  # noqa: FBT003 (with names)
+    checks.Start()
+    while checks.More():
+        if checks.Value().HasFailed():
+            raise ReadError(checks.Value().CFail(1))
+        checks.Next()
 
 
 def plane_faces(solid: Solid) -> Iterator[PlaneFace]:

@@ -121,8 +121,9 @@ def _read(path: Path) -> list[Solid]:
     name = str(path)
     try:
         solids, faces = read_solids(path)
-    except (ReadError, RuntimeError) as error:
-        found = "a STEP file that OpenCASCADE cannot read"
+    except ReadError as error:
+        reason = " ".join(str(error).split())[:100]
+        found = f"a STEP file that OpenCASCADE cannot read ({reason})"
         raise InputError([Problem(name, found, STEP.expected, EXPORT)]) from error
     if not solids:
         found = f"{faces} surfaces and no solid" if faces else "nothing that has a shape"
