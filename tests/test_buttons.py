@@ -117,7 +117,7 @@ def test_in_place_macros_signatures_and_settings_of_others_are_kept(book: Path) 
             "xl/vbaProject.bin": lambda _: theirs,
             "xl/vbaProjectSignature.bin": lambda _: b"signature",
             "xl/_rels/vbaProject.bin.rels": lambda _: head + relation + b"</Relationships>",
-            "xl/worksheets/sheet2.xml": lambda old: old.replace(b'"Sheet2"', b'"TheirGA"'),
+            "xl/worksheets/sheet3.xml": lambda old: old.replace(b'"Sheet3"', b'"TheirGA"'),
             PART: lambda old: old.replace(b"</sheetData>", _THEIR_SETTING + b"</sheetData>"),
         },
     )
@@ -125,7 +125,7 @@ def test_in_place_macros_signatures_and_settings_of_others_are_kept(book: Path) 
     kept = parts(book)
     assert kept["xl/vbaProject.bin"] == theirs
     assert kept["xl/vbaProjectSignature.bin"] == b"signature"
-    assert b'codeName="TheirGA"' in kept["xl/worksheets/sheet2.xml"]
+    assert b'codeName="TheirGA"' in kept["xl/worksheets/sheet3.xml"]
     assert settings(book)["SHOW CONSOLE"] == "true"
     assert is_untouched(book)
 
