@@ -12,10 +12,8 @@ from grasp_xl.errors import InputError, Problem
 from grasp_xl.fitment.dxf_lines import read_lines
 from grasp_xl.fitment.outlines import outlines_of
 from grasp_xl.fitment.part import CadPart, Face
+from grasp_xl.fitment.part_choice import choose_part
 from grasp_xl.space import frozen
-
-MAX_LISTED = 20
-"""Parts of a sheet that a message lists."""
 
 
 def read_dxf(
@@ -77,23 +75,14 @@ def _chosen(outlines: Sequence[Polygon], part: int | None, name: str) -> Polygon
     if not outlines:
         found, hint = "no closed outline", "draw the part's outline as lines and arcs that meet"
         raise InputError([Problem(name, found, "one", hint)])
-    if part is None and len(outlines) == 1:
-        return outlines[0]
-    if part is not None and 1 <= part <= len(outlines):
-        return outlines[part - 1]
-    listed = "; ".join(_told(number, one) for number, one in enumerate(outlines[:MAX_LISTED], 1))
-    more = len(outlines) - MAX_LISTED
-    found = f"{len(outlines)} part{'s' if len(outlines) > 1 else ''} ({listed}"
-    found += f"; and {more} more)" if more > 0 else ")"
-    expected = "one" if part is None else f"a part {part}"
     hint = "name one of them with --part; a frame around them is left out with --ignore-layer"
-    raise InputError([Problem(name, found, expected, hint)])
+    return choose_part(outlines, part, noun="part", describe=_told, name=name, hint=hint)
 
 
-def _told(number: int, outline: Polygon) -> str:
+def _told(outline: Polygon) -> str:
     x_low, y_low, x_high, y_high = outline.bounds
     holes = len(outline.interiors)
     return (
-        f"{number}: {x_high - x_low:.5g} x {y_high - y_low:.5g} mm at x {x_low:.5g} y {y_low:.5g}, "
+        f"{x_high - x_low:.5g} x {y_high - y_low:.5g} mm at x {x_low:.5g} y {y_low:.5g}, "
         f"{holes} hole{'s' if holes != 1 else ''}"
     )

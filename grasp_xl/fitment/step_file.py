@@ -17,6 +17,7 @@ from grasp_xl.file_content import FileKind, read_content
 from grasp_xl.fitment.cover import cover_above, plan_of
 from grasp_xl.fitment.orientation import rotation
 from grasp_xl.fitment.part import HEIGHT_DECIMALS, CadPart, Face, in_order
+from grasp_xl.fitment.part_choice import choose_part
 from grasp_xl.fitment.words import AXES
 from grasp_xl.space import FloatArray, frozen
 
@@ -39,8 +40,6 @@ MAX_FILE_BYTES = 512_000_000
 STEP = FileKind("file", "a STEP file", MAX_FILE_BYTES, "export the part alone")
 EXPORT = "export the part as STEP (AP214 or AP242), as a solid"
 START, END = b"ISO-10303-21", b"END-ISO-10303-21"
-MAX_LISTED = 20
-"""Solids of a file that a message lists."""
 
 
 def read_step(path: Path, *, up: str, part: int | None, approach_mm: float) -> CadPart:
@@ -66,7 +65,7 @@ def read_step(path: Path, *, up: str, part: int | None, approach_mm: float) -> C
     name = str(path)
     content = read_content(path, STEP)
     _refuse_other_files(content, name)
-    solid = _chosen(_read(path), part, name)
+    solid = choose_part(_read(path), part, noun="solid", describe=_told, name=name)
     from grasp_xl.fitment.occ import plane_faces, triangles
 
     turn = rotation(up)
@@ -132,22 +131,9 @@ def _read(path: Path) -> list[Solid]:
     return solids
 
 
-def _chosen(solids: Sequence[Solid], part: int | None, name: str) -> Solid:
-    if part is None and len(solids) == 1:
-        return solids[0]
-    if part is not None and 1 <= part <= len(solids):
-        return solids[part - 1]
-    listed = "; ".join(
-        "{}: {:,.4g} cm3 about {:.5g}, {:.5g}, {:.5g}".format(
-            number, solid.volume_mm3 / 1000, *solid.centroid_mm
-        )
-        for number, solid in enumerate(solids[:MAX_LISTED], 1)
-    )
-    found = f"{len(solids)} solid{'s' if len(solids) > 1 else ''} ({listed}"
-    more = len(solids) - MAX_LISTED
-    found += f"; and {more} more)" if more > 0 else ")"
-    expected = "one" if part is None else f"a solid {part}"
-    raise InputError([Problem(name, found, expected, "name one of them with --part")])
+def _told(solid: Solid) -> str:
+    x, y, z = solid.centroid_mm
+    return f"{solid.volume_mm3 / 1000:,.4g} cm3 about {x:.5g}, {y:.5g}, {z:.5g}"
 
 
 def _tilt_deg(face: PlaneFace, turn: FloatArray) -> float:
