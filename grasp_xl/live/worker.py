@@ -285,7 +285,7 @@ def _patch(
     in_the_way = [
         cell.where
         for sheet in patch.sheets
-        for cell in (Area(sheet.sheet, *place) for place in sorted(sheet.changed()))
+        for cell in (Area(sheet.sheet, *place) for place in sorted(sheet.changed))
         if cell in touched
     ]
     if in_the_way:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Collection, Container, Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from grasp_xl.workbook import fitness_sheet, run_log
@@ -24,7 +25,7 @@ FREE_COLUMNS = {RUN_LOG: run_log.WIDTH, FITNESS_TABLE: fitness_sheet.WIDTH}
 """Columns that are ours on sheets whose rows differ from run to run, whatever stands there."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SheetPatch:
     """What changes on one sheet.
 
@@ -38,14 +39,15 @@ class SheetPatch:
     before: WrittenSheet
     after: WrittenSheet
 
-    def changed(self) -> set[Place]:
-        """Return the cells that shall hold something else."""
+    @cached_property
+    def changed(self) -> frozenset[Place]:
+        """Cells that shall hold something else."""
         old, new = self.before.cells, self.after.cells
-        return {
+        return frozenset(
             place
             for place in old.keys() | new.keys()
             if _content(old.get(place)) != _content(new.get(place))
-        }
+        )
 
     def blocks(self, untouched: Callable[[Place], bool]) -> list[Area]:
         """Return the blocks of cells to write, few and large.
@@ -55,13 +57,13 @@ class SheetPatch:
         untouched : callable
             Whether a cell that does not change is as we wrote it: writing it again does no harm.
         """
-        changed = self.changed()
+        changed = self.changed
         kept = self.after.cells.keys() - changed
         return [*_blocks(self.sheet, changed, lambda place: place in kept and untouched(place))]
 
     def rows(self) -> list[Area]:
         """Return the first cells of the rows in which a cell changes, in runs."""
-        return [*_blocks(self.sheet, {(row, 0) for row, _ in self.changed()})]
+        return [*_blocks(self.sheet, {(row, 0) for row, _ in self.changed})]
 
     def cell(self, row: int, column: int) -> WrittenCell | None:
         """Return what a cell shall hold."""
@@ -98,7 +100,7 @@ class SheetPatch:
         return {name: area for name, area in self.after.tables.items() if old.get(name) != area}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Patch:
     """What changes in a workbook: its sheets, and the cells of its defined names.
 
@@ -110,7 +112,7 @@ class Patch:
     before: WrittenBook
     after: WrittenBook
 
-    @property
+    @cached_property
     def sheets(self) -> list[SheetPatch]:
         """Changes by sheet, for the sheets that both have."""
         return [
