@@ -20,6 +20,9 @@ GRAVITY_M_S2 = 9.81
 MAX_COUNT = 25
 """Largest Max. of a kind; the helper cells of a live card grow with its square."""
 
+MAX_FOOTPRINTS = 200_000
+"""Most footprints of one kind."""
+
 MIN_GENE_SLOTS = 5
 """The thesis's chromosome has five index genes a kind (eq. 1); a larger Max. widens it."""
 

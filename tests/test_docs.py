@@ -26,7 +26,6 @@ from grasp_xl.errors import MAX_PROBLEMS, GraspError
 from grasp_xl.fitment import csv_table, element
 from grasp_xl.fitment.catalogue import find, read_catalogue
 from grasp_xl.fitment.deflection_polygon import SIMPLER
-from grasp_xl.fitment.fitting import MAX_FOOTPRINTS
 from grasp_xl.fitment.footprint import TOLERANCE_MM
 from grasp_xl.fitment.material import MATERIALS
 from grasp_xl.grasp import evaluate
@@ -36,6 +35,7 @@ from grasp_xl.search.floors import search_space
 from grasp_xl.space import (
     GRAVITY_M_S2,
     MAX_COUNT,
+    MAX_FOOTPRINTS,
     ElementKind,
     OptionSpace,
     Part,

@@ -22,10 +22,7 @@ from grasp_xl.fitment.footprint import (
 )
 from grasp_xl.fitment.grid import DECIMALS, grid, grid_size
 from grasp_xl.fitment.part import CadPart, Face
-from grasp_xl.space import ElementKind, FloatArray, OptionSpace, Part, frozen
-
-MAX_FOOTPRINTS = 200_000
-"""Most footprints of a kind, as a workbook lists."""
+from grasp_xl.space import MAX_FOOTPRINTS, ElementKind, FloatArray, OptionSpace, Part, frozen
 
 MAX_GRID_POINTS = 4_000_000
 """Most points of the grids over all faces, however few of them are footprints."""

@@ -6,14 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from grasp_xl.space import FloatArray, frozen
+from grasp_xl.space import MAX_FOOTPRINTS, FloatArray, frozen
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import Fault, Grid, Source, as_number, is_blank
 from grasp_xl.workbook.layout import Area, KindLabels
 from grasp_xl.workbook.reading_labels import A_COORDINATE, miss, usual_place
-
-MAX_FOOTPRINTS = 200_000
-"""Footprints of one kind that are read."""
 
 
 def list_start(source: Source, sheet: str, labels: KindLabels) -> Area | None:

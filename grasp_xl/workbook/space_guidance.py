@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from grasp_xl.space import MAX_COUNT, OptionSpace
+from grasp_xl.space import MAX_COUNT, MAX_FOOTPRINTS, OptionSpace
 from grasp_xl.workbook import calc_rules, layout
 from grasp_xl.workbook.cells import MAX_NUMBER, MIN_DISTANCE
 from grasp_xl.workbook.guidance import Accepted, accept, between, guide_input
 from grasp_xl.workbook.layout import KINDS, OPTION_SPACE, Area, KindLabels
 from grasp_xl.workbook.pen import Pen
-from grasp_xl.workbook.reading_places import MAX_FOOTPRINTS
 
 PART_NOTES = (
     "Mass of the part (g); its weight W is 9.81 m/s² times that.",
