@@ -11,6 +11,7 @@ from OCP.BRep import BRep_Builder
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
 from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_MakeFace,
+    BRepBuilderAPI_NurbsConvert,
     BRepBuilderAPI_Sewing,
     BRepBuilderAPI_Transform,
 )
@@ -53,6 +54,11 @@ def turned(shape: Shape, axis: Sequence[float], degrees: float) -> Shape:
     move = gp_Trsf()
     move.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(*axis)), math.radians(degrees))
     return BRepBuilderAPI_Transform(shape, move, True).Shape()  # noqa: FBT003 (copy)
+
+
+def free_form(shape: Shape) -> Shape:
+    """Say the same solid with splines alone."""
+    return BRepBuilderAPI_NurbsConvert(shape).Shape()
 
 
 def mirrored(shape: Shape) -> Shape:

@@ -17,6 +17,7 @@ from solids import (
     block,
     cut,
     cylinder,
+    free_form,
     fused,
     mirrored,
     surface,
@@ -70,6 +71,35 @@ def test_a_plate_with_a_hole(step: Any) -> None:
     assert 15 - SAG_MM <= Point(60, 50).distance(hole) <= 15
     assert part.plan.symmetric_difference(face.outline).area < 20
     assert part.notes == ()
+
+
+def test_the_volume_of_a_solid_of_splines_is_that_of_the_same_solid_without(step: Any) -> None:
+    """A disc whose wall is a spline surface: by hand, as is its centroid."""
+    part = read(step(fused(block(-30, -30, 0, 60, 60, 5), free_form(cylinder(0, 0, 5, 20, 30)))))
+    block_mm3, disc_mm3 = 60 * 60 * 5, math.pi * 20**2 * 30
+    assert part.volume_mm3 == pytest.approx(block_mm3 + disc_mm3, rel=1e-6)
+    z_mm = (block_mm3 * 2.5 + disc_mm3 * 20) / (block_mm3 + disc_mm3)
+    assert part.centroid_mm == pytest.approx([0, 0, z_mm], abs=1e-4)
+
+
+@pytest.mark.parametrize("x_mm", [-1e12, 1e12])
+def test_a_part_far_from_the_origin_is_refused(step: Any, x_mm: float) -> None:
+    """Its places could not be exact."""
+    told = problem(step(block(x_mm, 0, 0, 100, 100, 5)))
+    assert "reaches 1e+12 mm from the origin, expected 1e+06 mm at most" in told
+
+
+def test_a_file_that_says_no_unit_of_length_is_read_in_millimetres_with_a_note(step: Any) -> None:
+    """The unit is never guessed in silence."""
+    path = step(PLATE)
+    text = path.read_text()
+    for unit, none in (("UNCERTAINTY", ""), ("UNIT", "PARAMETRIC_REPRESENTATION_CONTEXT()")):
+        text = re.sub(rf"GLOBAL_{unit}_ASSIGNED_CONTEXT\s*\(\([^)]*\)\)", none, text)
+    path.write_text(re.sub(r"#\d+ = [^;]*LENGTH_(UNIT|MEASURE)[^;]*;", "", text))
+    part = read(path)
+    (note,) = part.notes
+    assert part.plan.bounds == pytest.approx((0, 0, 200, 100))
+    assert "no unit of length" in str(note)
 
 
 def test_faces_at_several_heights_are_numbered_from_the_highest(step: Any) -> None:

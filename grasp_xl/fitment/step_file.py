@@ -36,10 +36,14 @@ SEAM_MM = 1e-3
 LEAST_AREA_MM2 = 1.0
 """Pieces of a face that are smaller are no faces, and covers that are smaller cover nothing."""
 
+MOST_REACH_MM = 1e6
+"""How far from the origin a part may lie: beyond, places are no longer exact."""
+
 MAX_FILE_BYTES = 512_000_000
 STEP = FileKind("file", "a STEP file", MAX_FILE_BYTES, "export the part alone")
 EXPORT = "export the part as STEP (AP214 or AP242), as a solid"
 START, END = b"ISO-10303-21", b"END-ISO-10303-21"
+UNIT = b"LENGTH_UNIT"
 
 
 def read_step(path: Path, *, up: str, part: int | None, approach_mm: float) -> CadPart:
@@ -66,8 +70,12 @@ def read_step(path: Path, *, up: str, part: int | None, approach_mm: float) -> C
     content = read_content(path, STEP)
     _refuse_other_files(content, name)
     solid = choose_part(_read(path), part, noun="solid", describe=_told, name=name)
-    from grasp_xl.fitment.occ import plane_faces, triangles
+    from grasp_xl.fitment.occ import plane_faces, reach_mm, triangles
 
+    if (reach := reach_mm(solid)) > MOST_REACH_MM:
+        found = f"a solid that reaches {reach:.3g} mm from the origin"
+        hint = "see whether the unit of length is right, and move the part to the origin in CAD"
+        raise InputError([Problem(name, found, f"{MOST_REACH_MM:g} mm at most", hint)])
     turn = rotation(up)
     flat = list(plane_faces(solid))
     mesh = frozen(triangles(solid) @ turn.T)
@@ -79,6 +87,8 @@ def read_step(path: Path, *, up: str, part: int | None, approach_mm: float) -> C
         found = f"no face that can be reached: all {len(level)} lie under other material"
         hint = "turn the part with --up, or give a smaller --approach"
         raise InputError([Problem(name, found, "a level face with room above it", hint)])
+    if UNIT not in content:
+        notes.append(Problem(name, "no unit of length", "one", "its numbers are taken as mm"))
     return CadPart(
         name,
         hashlib.sha256(content).hexdigest(),
