@@ -146,7 +146,7 @@ def reach_mm(solid: Solid) -> float:
     box = Bnd_Box()
     BRepBndLib.Add_s(solid.shape, box)
     corners = box.CornerMin(), box.CornerMax()
-    return max(abs(each) for corner in corners for each in corner.Coord())
+    return float(max(abs(each) for corner in corners for each in corner.Coord()))
 
 
 def plane_faces(solid: Solid) -> Iterator[PlaneFace]:
