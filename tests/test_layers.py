@@ -20,6 +20,7 @@ LAYERS = (
     ("task",),
     ("fitment",),
     ("workbook", "macros"),
+    ("view",),
     ("commands",),
     ("cli", "live"),
 )

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from grasp_xl.commands.front import FoundFront
     from grasp_xl.commands.run import Ran
     from grasp_xl.commands.solve import Solved
+    from grasp_xl.commands.view import Viewed
     from grasp_xl.grasp import Grasp
     from grasp_xl.search.proven_floors import ProvenFloors
     from grasp_xl.task import Task
@@ -50,6 +51,20 @@ def grasp_json(grasp: Grasp, rules: Rules) -> Json:
         "meets_all_goals": grasp.meets_all_goals,
         "criterion": rules.criterion.name,
         "value": grasp.value,
+    }
+
+
+def view_json(viewed: Viewed, output: str) -> Json:
+    """Return what is shown of a workbook: its designs, and the shown one with its bill."""
+    scene = viewed.scene
+    return {
+        "design": scene.shown.key,
+        "grasp": grasp_json(scene.grasp(scene.shown), scene.task.rules),
+        "designs": [
+            {"design": each.key, "group": each.group, "name": each.name} for each in scene.designs
+        ],
+        "bill": [{**asdict(line), "price": line.price} for line in viewed.bill],
+        "output": output,
     }
 
 

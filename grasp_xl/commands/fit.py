@@ -18,7 +18,18 @@ from grasp_xl.fitment.material import MATERIALS, USUAL, Material
 from grasp_xl.fitment.part import CadPart, in_order, rings_of
 from grasp_xl.fitment.part_file import Reading, read_part
 from grasp_xl.space import FloatArray, frozen
-from grasp_xl.workbook.part_sheet import WHOLE, FaceOutline, PartRecord
+from grasp_xl.workbook.part_sheet import (
+    CUP_ANGLE,
+    MAGNET_ANGLE,
+    PART_OF_FILE,
+    SHA_256,
+    SOURCE_FILE,
+    THICKNESS,
+    UP_AXIS,
+    WHOLE,
+    FaceOutline,
+    PartRecord,
+)
 from grasp_xl.workbook.saving import check_place, check_target, save
 from grasp_xl.workbook.writing import export_workbook
 from grasp_xl.workbook.written import CellValue
@@ -137,12 +148,12 @@ def _record(request: Request, part: CadPart, fitted: Fitted) -> PartRecord:
     mass, reading = request.mass, request.reading
     material = mass.material or (None if mass.density_g_cm3 or mass.mass_g else MATERIALS[USUAL])
     facts: list[tuple[str, CellValue]] = [
-        ("Source file", request.path.name),
-        ("SHA-256", part.sha256),
-        ("Part of the file", reading.part),
-        ("Axis that looks up", reading.up),
+        (SOURCE_FILE, request.path.name),
+        (SHA_256, part.sha256),
+        (PART_OF_FILE, reading.part),
+        (UP_AXIS, reading.up),
         ("Units", reading.units),
-        ("Sheet thickness (mm)", reading.thickness_mm),
+        (THICKNESS, reading.thickness_mm),
         ("Volume (mm3)", round(part.volume_mm3, AREA_DECIMALS)),
         ("Material", material.name if material else None),
         ("Density (g/cm3)", mass.density_g_cm3),
@@ -150,9 +161,13 @@ def _record(request: Request, part: CadPart, fitted: Fitted) -> PartRecord:
         ("Pitch (mm)", request.pitch_mm),
         ("Polygon", request.polygon if isinstance(request.polygon, str) else "given"),
     ]
-    for word, wanted in ((CUP, request.cup), (MAGNET, request.magnet)):
+    for word, angle, wanted in (
+        (CUP, CUP_ANGLE, request.cup),
+        (MAGNET, MAGNET_ANGLE, request.magnet),
+    ):
         if wanted:
             facts.append((f"{word.capitalize()} faces", wanted.faces))
+            facts.append((angle, wanted.angle_deg or None))
     if request.min_overlap:
         facts.append(("Least overlap of a magnet", request.min_overlap))
     faces = dict.fromkeys((*fitted.cup_faces, *fitted.magnet_faces))

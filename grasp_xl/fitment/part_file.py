@@ -8,6 +8,7 @@ from pathlib import Path
 
 from grasp_xl.errors import UsageError
 from grasp_xl.fitment.part import CadPart
+from grasp_xl.fitment.words import USUAL_UP
 
 STEP_SUFFIXES = (".step", ".stp", ".p21")
 DXF_SUFFIX = ".dxf"
@@ -84,7 +85,7 @@ def read_part(path: Path, reading: Reading) -> CadPart:
 
         return read_step(
             path,
-            up=reading.up or "+z",
+            up=reading.up or USUAL_UP,
             part=reading.part,
             approach_mm=APPROACH_MM if reading.approach_mm is None else reading.approach_mm,
         )

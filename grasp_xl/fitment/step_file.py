@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -46,8 +47,40 @@ START, END = b"ISO-10303-21", b"END-ISO-10303-21"
 UNIT = b"LENGTH_UNIT"
 
 
-def read_step(path: Path, *, up: str, part: int | None, approach_mm: float) -> CadPart:
-    """Read a solid part, turned so that an axis of the file looks up.
+@dataclass(frozen=True, eq=False, slots=True)
+class TurnedSolid:
+    """A solid of a file, and how it is turned so that an axis of the file looks up.
+
+    Parameters
+    ----------
+    solid : Solid
+        As in the file.
+    turn : FloatArray
+        ``(3, 3)`` rotation.
+    mesh : FloatArray
+        ``(n, 3, 3)`` triangles after it (mm), counter-clockwise from outside.
+    content : bytes
+        Of the file.
+    """
+
+    solid: Solid
+    turn: FloatArray
+    mesh: FloatArray
+    content: bytes
+
+    @property
+    def sha256(self) -> str:
+        """Of the file."""
+        return hashlib.sha256(self.content).hexdigest()
+
+    @property
+    def centroid_mm(self) -> FloatArray:
+        """Centroid after the turn, ``(3,)``."""
+        return frozen(self.turn @ self.solid.centroid_mm)
+
+
+def read_solid(path: Path, *, up: str, part: int | None) -> TurnedSolid:
+    """Read one solid of a STEP file.
 
     Parameters
     ----------
@@ -56,13 +89,11 @@ def read_step(path: Path, *, up: str, part: int | None, approach_mm: float) -> C
         One of :data:`AXES`.
     part : int or None
         Which of several solids, from 1, the largest first.
-    approach_mm : float
-        Least room above a face: what lies nearer under other material cannot be reached.
 
     Raises
     ------
     InputError
-        If there is no solid, several and none is named, or no level face.
+        If there is no solid, several and none is named, or it is too far from the origin.
     GraspError
         If OpenCASCADE is not installed.
     """
@@ -70,32 +101,54 @@ def read_step(path: Path, *, up: str, part: int | None, approach_mm: float) -> C
     content = read_content(path, STEP)
     _refuse_other_files(content, name)
     solid = choose_part(_read(path), part, noun="solid", describe=_told, name=name)
-    from grasp_xl.fitment.occ import plane_faces, reach_mm, triangles
+    from grasp_xl.fitment.occ import reach_mm, triangles
 
     if (reach := reach_mm(solid)) > MOST_REACH_MM:
         found = f"a solid that reaches {reach:.3g} mm from the origin"
         hint = "see whether the unit of length is right, and move the part to the origin in CAD"
         raise InputError([Problem(name, found, f"{MOST_REACH_MM:g} mm at most", hint)])
     turn = rotation(up)
-    flat = list(plane_faces(solid))
-    mesh = frozen(triangles(solid) @ turn.T)
+    return TurnedSolid(solid, turn, frozen(triangles(solid) @ turn.T), content)
+
+
+def read_step(path: Path, *, up: str, part: int | None, approach_mm: float) -> CadPart:
+    """Read a solid part: its level faces, seen from an axis of the file that looks up.
+
+    Parameters
+    ----------
+    path, up, part
+        See :func:`read_solid`.
+    approach_mm : float
+        Least room above a face: what lies nearer under other material cannot be reached.
+
+    Raises
+    ------
+    InputError, GraspError
+        As :func:`read_solid`, or if there is no level face.
+    """
+    name = str(path)
+    turned = read_solid(path, up=up, part=part)
+    from grasp_xl.fitment.occ import plane_faces
+
+    turn = turned.turn
+    flat = list(plane_faces(turned.solid))
     level = _level_faces([face for face in flat if _tilt_deg(face, turn) <= LEVEL_DEG], turn)
     if not level:
         raise InputError([_no_level_face(flat, up, name)])
-    faces, notes = _reachable(level, mesh, approach_mm, name)
+    faces, notes = _reachable(level, turned.mesh, approach_mm, name)
     if not faces:
         found = f"no face that can be reached: all {len(level)} lie under other material"
         hint = "turn the part with --up, or give a smaller --approach"
         raise InputError([Problem(name, found, "a level face with room above it", hint)])
-    if UNIT not in content:
+    if UNIT not in turned.content:
         notes.append(Problem(name, "no unit of length", "one", "its numbers are taken as mm"))
     return CadPart(
         name,
-        hashlib.sha256(content).hexdigest(),
-        solid.volume_mm3,
-        frozen(turn @ solid.centroid_mm),
+        turned.sha256,
+        turned.solid.volume_mm3,
+        turned.centroid_mm,
         faces,
-        plan_of(mesh),
+        plan_of(turned.mesh),
         tuple(notes),
     )
 
@@ -123,10 +176,7 @@ def _read(path: Path) -> list[Solid]:
     try:
         from grasp_xl.fitment.occ import ReadError, read_solids
     except ImportError as error:
-        raise GraspError(
-            f"STEP files need OpenCASCADE, which is not installed ({error}).",
-            hint='Install it with pip install "grasp_xl[cad]", or export the outline as DXF',
-        ) from error
+        raise not_installed(error, "export the outline as DXF") from error
     name = str(path)
     try:
         solids, faces = read_solids(path)
@@ -139,6 +189,14 @@ def _read(path: Path) -> list[Solid]:
         hint = "give the sheet its thickness in CAD: a surface has no mass"
         raise InputError([Problem(name, found, "one solid", hint)])
     return solids
+
+
+def not_installed(error: ImportError, instead: str) -> GraspError:
+    """Return what is told of a missing OpenCASCADE, and what can be done instead."""
+    return GraspError(
+        f"STEP files need OpenCASCADE, which is not installed ({error}).",
+        hint=f'Install it with pip install "grasp_xl[cad]", or {instead}',
+    )
 
 
 def _told(solid: Solid) -> str:

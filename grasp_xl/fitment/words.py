@@ -11,7 +11,8 @@ POLYGONS = (AUTO, HULL, RECTANGLE)
 """How the polygon is made that stands for the part."""
 
 AXES = ("+x", "-x", "+y", "-y", "+z", "-z")
-"""Which axis of a file looks up."""
+USUAL_UP = "+z"
+"""Which axis of a file looks up, and which unless one is named."""
 
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
 """Units of length that a drawing can have, in mm."""

@@ -22,6 +22,14 @@ OUTLINE_HEADER = ("Face", "Ring", "X", "Y")
 WHOLE = 0
 """Number of the outline of the whole part in plan view, which is at no height."""
 
+SOURCE_FILE = "Source file"
+SHA_256 = "SHA-256"
+PART_OF_FILE = "Part of the file"
+UP_AXIS = "Axis that looks up"
+THICKNESS = "Sheet thickness (mm)"
+CUP_ANGLE, MAGNET_ANGLE = "Cup angle (deg)", "Magnet angle (deg)"
+"""Labels of the facts that programs read."""
+
 Facts = tuple[tuple[str, CellValue], ...]
 """What is said of a part: label and value."""
 
@@ -54,6 +62,10 @@ class PartRecord:
 
     facts: Facts
     outlines: tuple[FaceOutline, ...]
+
+    def fact(self, label: str) -> CellValue:
+        """Return what is said under a label; None where nothing is."""
+        return dict(self.facts).get(label)
 
 
 def write_part(pen: Pen, record: PartRecord) -> None:

@@ -1,0 +1,177 @@
+"""What ``view`` shows of a workbook, and the files that it writes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from grasp_xl.commands.preparing import Active, given_grasp, prepare
+from grasp_xl.errors import OutputError, Problem, UsageError
+from grasp_xl.file_content import FileKind, read_content
+from grasp_xl.fitment.catalogue import read_catalogue
+from grasp_xl.fitment.step_file import not_installed
+from grasp_xl.task import Parameters
+from grasp_xl.view.assembly import ELEMENT_WORDS, MARK
+from grasp_xl.view.bill import HEADER, Line, bill_csv, bill_of
+from grasp_xl.view.designs import chosen, designs_of
+from grasp_xl.view.element_model import ElementModel, element_model
+from grasp_xl.view.part_shape import part_shape
+from grasp_xl.view.pasted import pasted_grasp
+from grasp_xl.view.scene import Scene
+from grasp_xl.workbook.book import Book, read_book
+from grasp_xl.workbook.layout import DEFAULT_DIAMETERS_MM
+from grasp_xl.workbook.part_sheet import CUP_ANGLE, MAGNET_ANGLE
+from grasp_xl.workbook.saving import check_place, save
+
+PAGE, STEP, GLTF, DRAWING, BILL = (".html",), (".step", ".stp"), (".glb",), (".dxf",), (".csv",)
+ANY = FileKind("file", "a file of any kind", 2**31, "name another file with -o")
+SUFFIXES = (*PAGE, *STEP, *GLTF, *DRAWING, *BILL)
+
+
+@dataclass(frozen=True, slots=True)
+class Wish:
+    """What a person asked to see.
+
+    Parameters
+    ----------
+    path : Path
+        Workbook.
+    design : str or None
+        Key of the design that is shown.
+    grasp : Active
+        A grasp given by indices.
+    genes : str or None
+        A grasp given as two rows of genes.
+    part, catalogue : Path or None
+        STEP file of the part; the designer's own elements.
+    """
+
+    path: Path
+    design: str | None
+    grasp: Active
+    genes: str | None
+    part: Path | None
+    catalogue: Path | None
+
+
+@dataclass(frozen=True, slots=True)
+class Viewed:
+    """What was shown, and what is odd about it."""
+
+    scene: Scene
+    warnings: tuple[Problem, ...]
+
+    @property
+    def bill(self) -> list[Line]:
+        """Bill of material of the shown design."""
+        return _bill_of(self.scene)
+
+
+def view_file(wish: Wish, output: Path, *, force: bool) -> Viewed:
+    """Show the designs of a workbook in a file.
+
+    Raises
+    ------
+    UsageError, InputError
+        If something that was asked for is not there.
+    GraspError
+        If a package that the file needs is not installed.
+    OutputError
+        If it cannot be written.
+    """
+    check_place(output, SUFFIXES, force=force)
+    _refuse_theirs(output, force=force)
+    write = _writer(output.suffix.lower())
+    viewed = scene_of(wish)
+    save(write(viewed.scene), output)
+    return viewed
+
+
+def _refuse_theirs(output: Path, *, force: bool) -> None:
+    """Refuse to replace a file that ``view`` did not write, such as the part's own STEP file."""
+    if force or not output.exists():
+        return
+    content = read_content(output, ANY)
+    if not any(mark in content for mark in (MARK.encode(), ",".join(HEADER).encode())):
+        raise OutputError(
+            f"{output} exists and grasp-xl view did not write it, so nothing was written.",
+            where=str(output),
+            hint="Name another file with -o, or add --force to replace it",
+        )
+
+
+def _writer(suffix: str) -> Callable[[Scene], bytes]:
+    """Return what writes a kind of file.
+
+    Raises
+    ------
+    GraspError
+        If a package that it needs is not installed.
+    """
+    if suffix in PAGE:
+        from grasp_xl.view.page import page_of
+
+        return page_of
+    if suffix in GLTF:
+        from grasp_xl.view.gltf_file import gltf_of
+
+        return gltf_of
+    if suffix in DRAWING:
+        from grasp_xl.view.drawing import drawing_of
+
+        return drawing_of
+    if suffix in BILL:
+        return _bill
+    try:
+        from grasp_xl.view.step_assembly import step_of
+    except ImportError as error:
+        raise not_installed(error, "write the design as .glb or .dxf") from error
+    return step_of
+
+
+def _bill_of(scene: Scene) -> list[Line]:
+    return bill_of(scene.task.space, scene.grasp(scene.shown), ELEMENT_WORDS)
+
+
+def _bill(scene: Scene) -> bytes:
+    return bill_csv(_bill_of(scene))
+
+
+def scene_of(wish: Wish) -> Viewed:
+    """Return what a person asked to see.
+
+    Raises
+    ------
+    UsageError, InputError, GraspError
+        If something that was asked for is not there, or cannot be read.
+    """
+    book = read_book(wish.path)
+    task = prepare(book, Parameters())
+    given = given_grasp(book.space, wish.grasp)
+    if wish.genes is not None:
+        if given:
+            raise UsageError(
+                "Both --genes and --cups or --magnets were given.",
+                where="--genes",
+                hint="Give the grasp in one way",
+            )
+        given = pasted_grasp(wish.genes, book.space, "--genes")
+    shape = part_shape(book.space, book.part, wish.path, wish.part)
+    models = _models(book, wish)
+    designs = designs_of(book, task, given)
+    scene = Scene(wish.path.name, task, shape, models, designs, chosen(designs, wish.design))
+    return Viewed(scene, (*task.warnings, *shape.notes))
+
+
+def _models(book: Book, wish: Wish) -> tuple[ElementModel, ...]:
+    """Return what the elements look like."""
+    elements = {each.model: each for each in read_catalogue(wish.catalogue).elements}
+    models = []
+    for kind, angle, default in zip(
+        book.space.kinds, (CUP_ANGLE, MAGNET_ANGLE), DEFAULT_DIAMETERS_MM, strict=True
+    ):
+        turned = book.part.fact(angle) if book.part else None
+        degrees = float(turned) if isinstance(turned, int | float) else 0.0
+        models.append(element_model(kind, elements.get(kind.model), default, degrees))
+    return tuple(models)
