@@ -383,6 +383,9 @@ History = Annotated[
         "Write every change of the fittest to this CSV file.",
     ),
 ]
+Picture = Annotated[
+    bool, typer.Option("--picture", help="Draw the best grasp in 3-D, on the sheet Grasp.")
+]
 InPlace = Annotated[bool, typer.Option("--in-place", help="Replace the input workbook.")]
 Force = Annotated[
     bool, typer.Option("--force", help="Overwrite what was edited; lose what cannot be kept.")

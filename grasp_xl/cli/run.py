@@ -27,6 +27,7 @@ from grasp_xl.cli.options import (
     MaybeBook,
     NoElitism,
     OneIn,
+    Picture,
     Prove,
     ProveSeconds,
     Quiet,
@@ -70,6 +71,7 @@ def run(
     prove_limit: ProveSeconds = 10.0,
     go_on: GoOn = False,
     history: History = None,
+    picture: Picture = False,
     in_place: InPlace = False,
     force: Force = False,
     as_json: AsJson = False,
@@ -132,6 +134,7 @@ def run(
             go_on=go_on,
             on_progress=bar,
             prove=proved,
+            picture=picture,
         )
     if not quiet:
         terminal.warnings(ran.task.warnings)

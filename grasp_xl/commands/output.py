@@ -9,6 +9,7 @@ from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import Generations
 from grasp_xl.task import Task
 from grasp_xl.workbook.book import Book
+from grasp_xl.workbook.grasp_sheet import Rendering
 from grasp_xl.workbook.macros import Macros
 from grasp_xl.workbook.proved import Proved
 from grasp_xl.workbook.run_log import Origin
@@ -56,6 +57,7 @@ def written_book(
     proved: Proved | None = None,
     trade_offs: TradeOffs | None = None,
     macros: Macros | None = None,
+    rendering: Rendering | None = None,
 ) -> WrittenBook:
     """Write the full workbook of a task and its result."""
     name = Path(book.source.name).name.encode(errors="backslashreplace").decode()
@@ -70,6 +72,7 @@ def written_book(
         trade_offs=trade_offs,
         part=book.part,
         macros=macros,
+        rendering=rendering,
     )
 
 

@@ -9,14 +9,17 @@ from grasp_xl.commands.keeping import kept_trade_offs, replaced, replaced_in_pla
 from grasp_xl.commands.output import Output, macros_at, now, written_book
 from grasp_xl.commands.preparing import Active, prepare, refuse_infeasible, with_floor_warnings
 from grasp_xl.commands.solve import Solved
+from grasp_xl.commands.view import rendered
 from grasp_xl.errors import OutputError, Problem
 from grasp_xl.search.floors import floors
 from grasp_xl.search.genetic import OnProgress, search
 from grasp_xl.search.result import Result, State
 from grasp_xl.search.stop import Interrupt, StopRule
 from grasp_xl.task import Parameters, Task
+from grasp_xl.view.designs import BENCHMARK, BEST, PROVED, Design
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.book import Book, read_book
+from grasp_xl.workbook.grasp_sheet import Rendering
 from grasp_xl.workbook.reading_run import SavedRun
 from grasp_xl.workbook.saving import check_place, check_target, save
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs
@@ -127,6 +130,7 @@ def run_file(
     go_on: bool = False,
     on_progress: OnProgress | None = None,
     prove: Callable[[Task, Result], Solved | None] | None = None,
+    picture: bool = False,
 ) -> Ran:
     """Run the genetic search on a file, prove how good it is, and write the workbook.
 
@@ -144,6 +148,8 @@ def run_file(
     on_progress : callable, optional
     prove : callable, optional
         Given the run, says what the exact search proved; None where it was not asked.
+    picture : bool
+        Draw the best grasp in three dimensions.
     """
     clock, began = time.perf_counter(), now()
     ask = interrupt or Interrupt()
@@ -160,6 +166,10 @@ def run_file(
     try:
         solved = prove(task, result) if prove else None
     finally:  # what the run found is kept, whatever becomes of the proof
+        rendering: Rendering | None = None
+        notes: tuple[Problem, ...] = ()
+        if picture:
+            rendering, notes = rendered(book, task, _best_known(task, result, solved))
         written = written_book(
             task,
             result,
@@ -168,13 +178,25 @@ def run_file(
             proved=solved.shown if solved else None,
             trade_offs=ready.trade_offs,
             macros=macros_at(output.path, book),
+            rendering=rendering,
         )
         save(written.content, output.path)
         _save_history(result, output)
     if saved:
         idle = _nothing_asked(book, options, task.generations, saved.state.generation)
         task = task.warned(idle)
+    task = task.warned(notes)
     return Ran(task, result, solved, time.perf_counter() - clock)
+
+
+def _best_known(task: Task, result: Result, solved: Solved | None) -> Design:
+    """Return the best grasp that is known after a run."""
+    proved = solved.shown if solved else None
+    if proved and proved.grasp:
+        return Design(PROVED, "", proved.title, proved.grasp.chromosome)
+    if result.best:
+        return Design(BEST, "", "Best of the run", result.best.chromosome)
+    return Design(BENCHMARK, "", "Benchmark", task.benchmark.chromosome)
 
 
 def _save_history(result: Result, output: Output) -> None:

@@ -11,15 +11,16 @@ from grasp_xl.errors import OutputError, Problem, UsageError
 from grasp_xl.file_content import FileKind, read_content
 from grasp_xl.fitment.catalogue import read_catalogue
 from grasp_xl.fitment.step_file import not_installed
-from grasp_xl.task import Parameters
+from grasp_xl.task import Parameters, Task
 from grasp_xl.view.assembly import ELEMENT_WORDS, MARK
 from grasp_xl.view.bill import HEADER, Line, bill_csv, bill_of
-from grasp_xl.view.designs import chosen, designs_of
+from grasp_xl.view.designs import Design, chosen, designs_of
 from grasp_xl.view.element_model import ElementModel, element_model
 from grasp_xl.view.part_shape import part_shape
 from grasp_xl.view.pasted import pasted_grasp
 from grasp_xl.view.scene import Scene
 from grasp_xl.workbook.book import Book, read_book
+from grasp_xl.workbook.grasp_sheet import Rendering
 from grasp_xl.workbook.layout import DEFAULT_DIAMETERS_MM
 from grasp_xl.workbook.part_sheet import CUP_ANGLE, MAGNET_ANGLE
 from grasp_xl.workbook.saving import check_place, save
@@ -158,15 +159,27 @@ def scene_of(wish: Wish) -> Viewed:
             )
         given = pasted_grasp(wish.genes, book.space, "--genes")
     shape = part_shape(book.space, book.part, wish.path, wish.part)
-    models = _models(book, wish)
+    models = _models(book, wish.catalogue)
     designs = designs_of(book, task, given)
     scene = Scene(wish.path.name, task, shape, models, designs, chosen(designs, wish.design))
     return Viewed(scene, (*task.warnings, *shape.notes))
 
 
-def _models(book: Book, wish: Wish) -> tuple[ElementModel, ...]:
+def rendered(book: Book, task: Task, design: Design) -> tuple[Rendering, tuple[Problem, ...]]:
+    """Return a picture of a design for its workbook, and what is odd about the part in it."""
+    from grasp_xl.view.picture import picture_of
+
+    path = Path(book.source.name)
+    shape = part_shape(task.space, book.part, path, None)
+    scene = Scene(path.name, task, shape, _models(book, None), (design,), design)
+    cups, magnets = (", ".join(map(str, active)) for active in design.chromosome.active)
+    told = f"PICTURE of this run: {design.name} (cups {cups or '-'}; magnets {magnets or '-'})"
+    return Rendering(picture_of(scene), told), shape.notes
+
+
+def _models(book: Book, catalogue: Path | None) -> tuple[ElementModel, ...]:
     """Return what the elements look like."""
-    elements = {each.model: each for each in read_catalogue(wish.catalogue).elements}
+    elements = {each.model: each for each in read_catalogue(catalogue).elements}
     models = []
     for kind, angle, default in zip(
         book.space.kinds, (CUP_ANGLE, MAGNET_ANGLE), DEFAULT_DIAMETERS_MM, strict=True

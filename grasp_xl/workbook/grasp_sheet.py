@@ -7,6 +7,7 @@ leaves out, and which is written in the colour of its cell.
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -80,6 +81,11 @@ OUTSIDE = (
 MOST_SERIES = 255
 """That a chart of Excel's may have."""
 
+RENDERING_SCALE, RENDERING_ROWS = 0.6, 30
+"""Of its pixels, and rows that it takes with its title."""
+RENDERING_TEXT = "A grasp in three dimensions, drawn by grasp_xl"
+"""By which it is known that a picture is ours."""
+
 Number = float | str
 Pair = tuple[Number, Number]
 
@@ -91,6 +97,14 @@ class Picture:
     title: str
     grasp: Grasp
     block: CalcBlock
+
+
+@dataclass(frozen=True, slots=True)
+class Rendering:
+    """A picture of a grasp in three dimensions: a PNG file, and which grasp it shows."""
+
+    png: bytes
+    told: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,8 +154,17 @@ class Stroke:
     formulas: list[tuple[str, str]]
 
 
-def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]) -> None:  # noqa: ANN401 (untyped library)
-    """Write one picture a grasp, side by side, and the points that each is drawn from."""
+def write_grasp(
+    pen: Pen,
+    book: Any,  # noqa: ANN401 (untyped library)
+    space: OptionSpace,
+    pictures: list[Picture],
+    rendering: Rendering | None,
+) -> None:
+    """Write one picture a grasp, side by side, and the points that each is drawn from.
+
+    Below them stands the rendering, if there is one: it does not follow the cells.
+    """
     pen.write(0, 0, "GRASP: plan view to scale (mm), live with the What-if card", Style.TITLE)
     pen.write(0, GRASP_DATA_COLUMN, "Points that the pictures are drawn from", Style.NOTE)
     column = GRASP_DATA_COLUMN
@@ -168,9 +191,24 @@ def write_grasp(pen: Pen, book: Any, space: OptionSpace, pictures: list[Picture]
         _to_scale(chart, frame, picture.title)
         pen.insert_chart(2, number * PICTURE_COLUMNS, chart)
     pen.hide_errors(Area(GRASP, FIRST_POINT, GRASP_DATA_COLUMN, CORNERS + 1, column))
+    pages = [Area(GRASP, 0, 0, frame.rows, len(pictures) * PICTURE_COLUMNS)]
+    if rendering:
+        pages.append(_write_rendering(pen, rendering, frame.rows + 1))
     pen.fix_row_heights()
-    page = Area(GRASP, 0, 0, frame.rows, len(pictures) * PICTURE_COLUMNS)
-    pen.print_pages(pictures=[page])
+    pen.print_pages(pictures=pages)
+
+
+def _write_rendering(pen: Pen, rendering: Rendering, row: int) -> Area:
+    """Insert a rendering under its title; return where both stand."""
+    pen.write(row, 0, rendering.told, Style.TITLE)
+    image = {
+        "image_data": io.BytesIO(rendering.png),
+        "x_scale": RENDERING_SCALE,
+        "y_scale": RENDERING_SCALE,
+        "description": RENDERING_TEXT,
+    }
+    pen.sheet.insert_image(row + 1, 0, "rendering.png", image)
+    return Area(GRASP, row, 0, RENDERING_ROWS, PICTURE_COLUMNS)
 
 
 def _series(name: str, x: Area, y: Area, look: dict[str, Any]) -> dict[str, Any]:

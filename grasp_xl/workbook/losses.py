@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import Source, Value, cells_of, is_blank, normal, same_formula
 from grasp_xl.workbook.extras import AREA_NAMES, VALIDATIONS, Extra, not_among, read_extras
+from grasp_xl.workbook.grasp_sheet import RENDERING_TEXT
 from grasp_xl.workbook.layout import CALC, FITNESS_TABLE, GA, GRASP, OPTION_SPACE, RUN_LOG, Area
 from grasp_xl.workbook.macros import BUTTONS
 from grasp_xl.workbook.package import Package
@@ -31,8 +32,12 @@ from grasp_xl.workbook.written import WrittenBook, WrittenCell
 MAX_NAMED = 10
 """Things of a kind, on a sheet, that a message names."""
 
+PICTURES = "pictures"
+OUR_PICTURE = b'descr="%s"' % RENDERING_TEXT.encode()
+"""A run makes it anew, or leaves it out."""
+
 OBJECTS = {
-    "pictures": ("/media/", b""),
+    PICTURES: ("/media/", b""),
     "shapes or text boxes": (
         "/drawings/drawing",
         b'<xdr:sp(?=[ />])(?![^>]*macro="[^"]*(?:%s)")'
@@ -134,7 +139,7 @@ def filled_cells(source: Source, sheet: str) -> set[tuple[int, int]]:
 def _objects(package: Package) -> dict[str, int]:
     with zipfile.ZipFile(io.BytesIO(package.content)) as archive:
         names = archive.namelist()
-        return {
+        found = {
             what: sum(
                 len(re.findall(counted, archive.read(name))) if counted else 1
                 for name in names
@@ -142,6 +147,9 @@ def _objects(package: Package) -> dict[str, int]:
             )
             for what, (part, counted) in OBJECTS.items()
         }
+        drawings = (archive.read(name) for name in names if "/drawings/drawing" in name)
+        found[PICTURES] -= sum(OUR_PICTURE in drawing for drawing in drawings)
+        return found
 
 
 def _extras(theirs: list[Extra], ours: list[Extra], *, same_sizes: bool = True) -> list[str]:

@@ -9,7 +9,7 @@ from datetime import datetime
 from typing import Any
 
 import xlsxwriter
-from xlsxwriter.drawing import Drawing, DrawingInfo
+from xlsxwriter.drawing import Drawing, DrawingInfo, DrawingTypes
 from xlsxwriter.worksheet import Worksheet
 
 from grasp_xl.workbook.layout import Area
@@ -56,17 +56,23 @@ class Cell:
 
 
 class SizedDrawing(Drawing):  # type: ignore[misc]
-    """The charts of a sheet, each at a cell and with a size of its own.
+    """The charts and images of a sheet, each at a cell and with a size of its own.
 
-    XlsxWriter anchors both corners of a chart at cells: where a computer has other fonts, columns
-    have other widths, and the chart would be stretched, and so would be the scale of its picture.
+    XlsxWriter anchors both corners of each at cells: where a computer has other fonts, columns
+    have other widths, and a chart would be stretched, and so would be the scale of its picture.
     """
 
     def _write_two_cell_anchor(self, index: int, drawing: DrawingInfo) -> None:
+        dimensions = drawing._dimensions  # noqa: SLF001 (a hook into the base)
+        size = drawing._width, drawing._height  # noqa: SLF001 (the same)
         self._xml_start_tag("xdr:oneCellAnchor")
-        self._write_from(*drawing._dimensions[:4])  # noqa: SLF001 (a hook into the base)
-        self._write_xdr_ext(EMU * drawing._width, EMU * drawing._height)  # noqa: SLF001 (the same)
-        self._write_graphic_frame(index, drawing)
+        self._write_from(*dimensions[:4])
+        if drawing._drawing_type == DrawingTypes.IMAGE:  # noqa: SLF001 (the same)
+            self._write_xdr_ext(*size)
+            self._write_pic(index, *dimensions[8:10], drawing)
+        else:
+            self._write_xdr_ext(*(EMU * pixels for pixels in size))
+            self._write_graphic_frame(index, drawing)
         self._write_client_data()
         self._xml_end_tag("xdr:oneCellAnchor")
 

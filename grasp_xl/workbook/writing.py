@@ -18,7 +18,7 @@ from grasp_xl.workbook.carrying import NOTHING_ASIDE, SetAside
 from grasp_xl.workbook.designs_sheet import number_of, write_valid_designs
 from grasp_xl.workbook.fitness_sheet import write_fitness_table
 from grasp_xl.workbook.ga_sheet import Shown, parameter_values, user_block, write_ga
-from grasp_xl.workbook.grasp_sheet import Picture, write_grasp
+from grasp_xl.workbook.grasp_sheet import Picture, Rendering, write_grasp
 from grasp_xl.workbook.history_sheet import write_history
 from grasp_xl.workbook.layout import Layout
 from grasp_xl.workbook.macros import Macros, add_buttons, add_macros, write_settings
@@ -46,6 +46,7 @@ def full_workbook(
     trade_offs: TradeOffs | None = None,
     part: PartRecord | None = None,
     macros: Macros | None = None,
+    rendering: Rendering | None = None,
 ) -> WrittenBook:
     """Write the full workbook of a run.
 
@@ -70,6 +71,8 @@ def full_workbook(
         Gives a sheet of its own.
     macros : Macros, optional
         Make it a workbook with buttons.
+    rendering : Rendering, optional
+        A picture of a grasp for the sheet ``Grasp``.
     """
     best = result.best or (proved.grasp if proved else None) or result.benchmark
     on_card = what_if or picks.trade_off or picks.design
@@ -108,7 +111,7 @@ def full_workbook(
         Picture("What-if grasp", shown.what_if, cards[layout.WHAT_IF.name].block),
         benchmark,
     ]
-    write_grasp(pens[layout.GRASP], book, task.space, pictures)
+    write_grasp(pens[layout.GRASP], book, task.space, pictures, rendering)
     fingerprint = trade_offs.fingerprint if trade_offs else ""
     log = pens[layout.RUN_LOG]
     write_run_log(log, task, result, origin, best.chromosome, proved, set_aside, fingerprint)
