@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from grasp_xl.space import FloatArray
 
 MOST_PARTS = 100_000
+MOST_GAP_MM = 10.0
+"""Wider gaps are no slips of the pen: bridges over them would join what stands apart."""
+
 MOST_COUNT = 25
 """As many elements of a kind as a workbook has room for; a test holds them equal."""
 
@@ -44,6 +47,9 @@ def _polygon(text: str) -> str | FloatArray:
         if len(numbers) != 2 or not all(abs(each) <= MOST for each in numbers):
             raise refused("--polygon", text, expected)
         corners.append(numbers)
+    corners = [
+        one for one, before in zip(corners, corners[-1:] + corners, strict=False) if one != before
+    ]
     if len(corners) < 3:
         raise refused("--polygon", text, expected)
     return _outline(text, corners)
@@ -94,6 +100,9 @@ def _counts(name: str) -> Callable[[str], tuple[int, int]]:
         if len(ends) > 2 or not all(0 <= end <= MOST_COUNT for end in ends) or ends != sorted(ends):
             expected = f"two whole numbers from 0 to {MOST_COUNT} as 1-5, the smaller one first"
             raise refused(name, text, expected)
+        if not ends[-1]:
+            kind = name.removesuffix("-count")
+            raise refused(name, text, "1 or more at most", f"Without {kind} there are none")
         return int(ends[0]), int(ends[-1])
 
     return parse
@@ -203,7 +212,7 @@ Pitch = Annotated[
 ]
 Up = Annotated[
     str | None,
-    with_value("--up", _axis, "AXIS", "STEP: axis that looks up, +z or =-y, ... (default +z)."),
+    with_value("--up", _axis, "AXIS", "STEP: axis that looks up, as +y or --up=-y (default +z)."),
 ]
 Approach = Annotated[
     float | None,
@@ -230,7 +239,7 @@ LargestGap = Annotated[
     float | None,
     with_value(
         "--gap",
-        a_number("--gap", f"a number from 0 to {MOST:g}", least=0),
+        a_number("--gap", f"a number from 0 to {MOST_GAP_MM:g}", least=0, most=MOST_GAP_MM),
         "MM",
         "DXF: largest gap of an outline that is closed (default 0.05).",
     ),

@@ -113,6 +113,8 @@ def _tell(error: GraspError, *, as_json: bool) -> None:
     from rich.console import Console
 
     console = Console(stderr=True, soft_wrap=True, highlight=False)
+    for note in getattr(error, "__notes__", ()):
+        console.print(f"Warning: {note}", style="yellow", markup=False)
     if isinstance(error, InputError):
         for problem in error.problems:
             console.print(str(problem), style="red", markup=False)

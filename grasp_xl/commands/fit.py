@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from shapely import MultiPolygon, Polygon
 
-from grasp_xl.errors import UsageError
+from grasp_xl.commands.keeping import replaced
+from grasp_xl.commands.output import Output
+from grasp_xl.errors import GraspError, UsageError
 from grasp_xl.fitment.catalogue import Catalogue, find, read_catalogue
 from grasp_xl.fitment.element import Element, Kind
-from grasp_xl.fitment.face_picture import face_picture
+from grasp_xl.fitment.face_picture import MARK, face_picture
 from grasp_xl.fitment.fitting import Choice, Fitment, Fitted, fit
 from grasp_xl.fitment.material import MATERIALS, USUAL, Material
 from grasp_xl.fitment.part import CadPart, in_order, rings_of
 from grasp_xl.fitment.part_file import Reading, read_part
+from grasp_xl.printable import quoted
 from grasp_xl.space import FloatArray, frozen
 from grasp_xl.workbook.part_sheet import (
     CUP_ANGLE,
@@ -30,11 +33,13 @@ from grasp_xl.workbook.part_sheet import (
     FaceOutline,
     PartRecord,
 )
-from grasp_xl.workbook.saving import check_place, check_target, save
+from grasp_xl.workbook.saving import check_place, check_target, refuse_theirs, save
 from grasp_xl.workbook.writing import export_workbook
 from grasp_xl.workbook.written import CellValue
 
-PICTURE_SUFFIX = ".svg"
+EXPORT_SUFFIX, PICTURE_SUFFIX = ".xlsx", ".svg"
+
+DOLLAR = "USD"
 
 CUP, MAGNET = "cup", "magnet"
 """How options begin that are about one kind."""
@@ -135,10 +140,18 @@ def fit_file(request: Request, output: Path, *, force: bool) -> FittedPart:
     OutputError
         If the sheet cannot be written.
     """
+    check_place(output, [EXPORT_SUFFIX], force=force)
     check_target(output, request.path, in_place=False, force=force)
+    lost = replaced(Output(output, force=force))
     fitment = _fitment(request)
     part = read_part(request.path, request.reading)
-    fitted = fit(part, fitment, request.mass.of(part))
+    try:
+        fitted = fit(part, fitment, request.mass.of(part))
+    except GraspError as error:
+        for note in part.notes:  # they may say why
+            error.add_note(str(note))
+        raise
+    fitted = replace(fitted, notes=(*lost, *fitted.notes))
     save(export_workbook(fitted.space, _record(request, part, fitted)).content, output)
     return FittedPart(part, fitted)
 
@@ -201,6 +214,7 @@ def list_faces(path: Path, reading: Reading, picture: Path, *, force: bool) -> C
         If it cannot be read, or the picture not written.
     """
     check_place(picture, [PICTURE_SUFFIX], force=force, option="--picture")
+    refuse_theirs(picture, [MARK], "fit", force=force, option="--picture")
     part = read_part(path, reading)
     save(face_picture(part).encode(), picture)
     return part
@@ -240,7 +254,7 @@ def _choice(
     if wanted is None:
         return None
     word, other = (CUP, MAGNET) if kind == "suction" else (MAGNET, CUP)
-    element = find(catalogue, wanted.name)
+    element = find(catalogue, wanted.name, kind)
     if element.kind != kind:
         raise UsageError(
             f"--{word}: {element.model!r} is a {other}.",
@@ -266,5 +280,12 @@ def _price(element: Element, wanted: Wanted, word: str) -> float:
             f"The price of {element.model!r} is not known.",
             where=f"--{word}-price",
             hint=f"Give it, for example --{word}-price 10",
+        )
+    if (element.currency or DOLLAR).upper() not in (DOLLAR, "$"):
+        raise UsageError(
+            f"The price of {quoted(element.model)} is in {quoted(element.currency or '')}, and a "
+            "workbook counts in $.",
+            where=f"--{word}-price",
+            hint=f"Give it in $ with --{word}-price",
         )
     return element.price

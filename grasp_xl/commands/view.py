@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grasp_xl.commands.preparing import Active, given_grasp, prepare
-from grasp_xl.errors import OutputError, Problem, UsageError
-from grasp_xl.file_content import FileKind, read_content
+from grasp_xl.errors import Problem, UsageError
 from grasp_xl.fitment.catalogue import read_catalogue
 from grasp_xl.fitment.step_file import not_installed
 from grasp_xl.task import Parameters, Task
@@ -23,10 +22,9 @@ from grasp_xl.workbook.book import Book, read_book
 from grasp_xl.workbook.grasp_sheet import Rendering
 from grasp_xl.workbook.layout import DEFAULT_DIAMETERS_MM
 from grasp_xl.workbook.part_sheet import CUP_ANGLE, MAGNET_ANGLE
-from grasp_xl.workbook.saving import check_place, save
+from grasp_xl.workbook.saving import check_place, refuse_theirs, save
 
 PAGE, STEP, GLTF, DRAWING, BILL = (".html",), (".step", ".stp"), (".glb",), (".dxf",), (".csv",)
-ANY = FileKind("file", "a file of any kind", 2**31, "name another file with -o")
 SUFFIXES = (*PAGE, *STEP, *GLTF, *DRAWING, *BILL)
 
 
@@ -82,24 +80,11 @@ def view_file(wish: Wish, output: Path, *, force: bool) -> Viewed:
         If it cannot be written.
     """
     check_place(output, SUFFIXES, force=force)
-    _refuse_theirs(output, force=force)
+    refuse_theirs(output, [MARK, ",".join(HEADER)], "view", force=force)
     write = _writer(output.suffix.lower())
     viewed = scene_of(wish)
     save(write(viewed.scene), output)
     return viewed
-
-
-def _refuse_theirs(output: Path, *, force: bool) -> None:
-    """Refuse to replace a file that ``view`` did not write, such as the part's own STEP file."""
-    if force or not output.exists():
-        return
-    content = read_content(output, ANY)
-    if not any(mark in content for mark in (MARK.encode(), ",".join(HEADER).encode())):
-        raise OutputError(
-            f"{output} exists and grasp-xl view did not write it, so nothing was written.",
-            where=str(output),
-            hint="Name another file with -o, or add --force to replace it",
-        )
 
 
 def _writer(suffix: str) -> Callable[[Scene], bytes]:

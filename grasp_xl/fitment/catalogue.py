@@ -110,8 +110,10 @@ def read_catalogue(own: Path | None = None) -> Catalogue:
     )
 
 
-def find(catalogue: Catalogue, name: str) -> Element:
+def find(catalogue: Catalogue, name: str, kind: Kind | None = None) -> Element:
     """Find an element by its model or part number; case and spaces do not matter.
+
+    One of another kind than the wanted one is found, too, where only that has the name.
 
     Raises
     ------
@@ -129,6 +131,7 @@ def find(catalogue: Catalogue, name: str) -> Element:
                 for element, own in zip(catalogue.elements, names, strict=True)
                 if own and own == wanted
             ]
+            found = [element for element in found if element.kind == kind] or found
             if len(found) == 1:
                 return found[0]
             if found:
@@ -136,7 +139,8 @@ def find(catalogue: Catalogue, name: str) -> Element:
                     f"{quoted(name)} is the name of several elements: {_told(found)}.",
                     hint="Give the model of one of them",
                 )
-    closest = nlargest(CLOSEST, catalogue.elements, key=lambda one: _closeness(one, name))
+    of_kind = [element for element in catalogue.elements if kind in (None, element.kind)]
+    closest = nlargest(CLOSEST, of_kind, key=lambda one: _closeness(one, name))
     raise UsageError(
         f"No element of the catalogue is named {quoted(name)}; the closest are {_told(closest)}.",
         hint="Give a model or part number that grasp-xl elements lists",

@@ -6,12 +6,14 @@ import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
 from shapely import Polygon
 
 from grasp_xl.errors import InputError, Problem
+from grasp_xl.fitment.caps import NO_CAPS, trimmed, true_area
 from grasp_xl.fitment.dxf_lines import read_lines
 from grasp_xl.fitment.outlines import outlines_of
-from grasp_xl.fitment.part import CadPart, Face
+from grasp_xl.fitment.part import CadPart, Face, in_order, pieces
 from grasp_xl.fitment.part_choice import choose_part
 from grasp_xl.space import frozen
 
@@ -48,13 +50,15 @@ def read_dxf(
     drawing, content = read_lines(path, units, ignored_layers)
     outlines, notes = outlines_of(drawing.lines, gap_mm, name)
     outline = _chosen(outlines, part, name)
-    middle = outline.centroid
+    caps = np.concatenate([NO_CAPS, *(line.caps for line in drawing.lines)])
+    area_mm2, middle_mm = true_area(outline, caps)
+    faces = (Face(piece, thickness_mm) for piece in pieces(trimmed(outline, caps)))
     return CadPart(
         name,
         hashlib.sha256(content).hexdigest(),
-        outline.area * thickness_mm,
-        frozen([middle.x, middle.y, thickness_mm / 2]),
-        (Face(outline, thickness_mm),),
+        area_mm2 * thickness_mm,
+        frozen([*middle_mm, thickness_mm / 2]),
+        in_order(faces),
         outline,
         (*drawing.notes, *notes, *_perhaps_a_frame(outline, name)),
     )

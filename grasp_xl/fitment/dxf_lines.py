@@ -14,6 +14,7 @@ import numpy as np
 
 from grasp_xl.errors import InputError, Problem, refuse
 from grasp_xl.file_content import read_content
+from grasp_xl.fitment.caps import Caps, caps_of
 from grasp_xl.fitment.dxf_curves import chords_of, is_curve
 from grasp_xl.fitment.dxf_opening import DXF, opened
 from grasp_xl.fitment.words import UNITS
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from ezdxf.document import Drawing
     from ezdxf.entities.dxfentity import DXFEntity
     from ezdxf.entities.insert import Insert
+    from ezdxf.entities.polyline import Polyline
 
 SAG_MM = 0.05
 """How far the chords of an arc may stray from it."""
@@ -56,10 +58,13 @@ class Line:
     ----------
     points_mm : FloatArray
         ``(n, 2)`` array, n at least 2; the last is the first where it is closed.
+    caps : Caps
+        Of its curves.
     layer : str
     """
 
     points_mm: FloatArray
+    caps: Caps
     layer: str
 
 
@@ -112,6 +117,7 @@ def read_lines(
     mm = _unit_mm(drawing, units, [entity for entity, _ in curves], found, name)
     found.lines = _lines(curves, mm, name)
     _note_left_out(found, shown, hidden, name)
+    _note_heights(found, curves, mm, name)
     return found, content
 
 
@@ -188,13 +194,25 @@ def _unit_mm(
     drawing: Drawing, units: str | None, curves: Sequence[DXFEntity], found: Drawing2D, name: str
 ) -> float:
     """Return the length of the drawing's unit (mm)."""
-    said = UNIT_CODES.get(drawing.header.get("$INSUNITS", 0))
+    code = drawing.header.get("$INSUNITS", 0)
+    said = UNIT_CODES.get(code) or _unusual_unit(code)
     if units and said and units != said:
         hint = f"it is read in {units}, as --units says"
         found.notes.append(Problem(name, f"a drawing in {said}", f"one in {units}", hint))
-    if units or said:
-        return UNITS[units or said or ""]
-    raise InputError([_no_unit(curves, name)])
+    if units:
+        return UNITS[units]
+    if not said:
+        raise InputError([_no_unit(curves, name)])
+    if said not in UNITS:
+        hint = "give the unit that is meant with --units"
+        raise InputError([Problem(name, f"a drawing in {said}", ", ".join(UNITS), hint)])
+    return UNITS[said]
+
+
+def _unusual_unit(code: int) -> str | None:
+    from ezdxf.units import unit_name
+
+    return unit_name(code).lower() if code else None
 
 
 def _no_unit(curves: Sequence[DXFEntity], name: str) -> Problem:
@@ -217,8 +235,8 @@ def _lines(curves: Sequence[tuple[DXFEntity, str]], mm: float, name: str) -> lis
     lines, problems = [], []
     for entity, layer in curves:
         try:
-            points = chords_of(entity, SAG_MM / mm) * mm
-            sound = bool(np.all(np.abs(points) < MAX_MM))  # also no NaN
+            chords = chords_of(entity, SAG_MM / mm).scaled(mm)
+            sound = bool(np.all(np.abs(chords.points) < MAX_MM))  # also no NaN
         except (ValueError, TypeError, ArithmeticError, LookupError, AttributeError):
             sound = False
         if not sound:
@@ -227,10 +245,25 @@ def _lines(curves: Sequence[tuple[DXFEntity, str]], mm: float, name: str) -> lis
             handle = entity.dxf.get("handle")
             found += f" (handle {handle})" if handle else ""
             problems.append(Problem(where, found, "one with sound coordinates", hint))
-        elif len(points) > 1 and np.ptp(points, axis=0).any():
-            lines.append(Line(points, layer))
+        elif len(chords.points) > 1 and np.ptp(chords.points, axis=0).any():
+            lines.append(Line(chords.points, caps_of(chords.points, chords.apexes), layer))
     refuse(problems, name)
     return lines
+
+
+def _note_heights(
+    found: Drawing2D, curves: Sequence[tuple[DXFEntity, str]], mm: float, name: str
+) -> None:
+    """Note lines that rise: a flat part has none."""
+    heights = [
+        vertex.dxf.location.z * mm
+        for entity, _ in curves
+        if entity.dxftype() == "POLYLINE" and cast("Polyline", entity).is_3d_polyline
+        for vertex in cast("Polyline", entity).vertices
+    ]
+    if heights and max(heights) - min(heights) > SAG_MM:
+        told = f"3-D polylines with corners at z {min(heights):.6g} to {max(heights):.6g} mm"
+        found.notes.append(Problem(name, told, "a flat outline", "it is seen from above"))
 
 
 def _note_left_out(

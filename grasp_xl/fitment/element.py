@@ -84,6 +84,13 @@ class Element:
     trust: str | None = None
     note: str | None = None
 
+    @property
+    def sides_mm(self) -> tuple[float, float] | None:
+        """Length and width of one that is not round; None for one that is."""
+        if self.shape == "round" or (self.shape is None and self.diameter_mm is not None):
+            return None
+        return (self.length_mm, self.width_mm) if self.length_mm and self.width_mm else None
+
 
 COLUMNS = tuple(Element.__dataclass_fields__)
 """A column for each field."""

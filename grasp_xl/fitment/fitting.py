@@ -135,18 +135,17 @@ def _cups(
         largest = max(
             largest_disc_mm(face.outline, points) for face, points in zip(faces, grids, strict=True)
         )
-        raise InputError([_no_cup_fits(part, choice.element, footprint, largest)])
-    return faces, _kind("suction", choice, footprint, footprints, None)
+        raise InputError([_no_cup_fits(part, choice, footprint, largest)])
+    return _carrying(faces, places), _kind("suction", choice, footprint, footprints, None)
 
 
-def _no_cup_fits(
-    part: CadPart, element: Element, footprint: Footprint, largest_mm: float
-) -> Problem:
+def _no_cup_fits(part: CadPart, choice: Choice, footprint: Footprint, largest_mm: float) -> Problem:
     largest = np.floor(largest_mm * 100) / 100
     size = f"{footprint.diameter_mm:g} mm" if footprint.is_round else "its size"
     return Problem(
         part.name,
-        f"no place where a suction cup of {size} ({element.model}) lies on the chosen faces",
+        f"no place where a suction cup of {size} ({choice.element.model}) lies on the faces of "
+        f"--cup-faces {choice.faces}",
         f"room for one at a point of the grid; the largest round one has {largest:g} mm",
         "choose a smaller cup, other faces, or a smaller pitch",
     )
@@ -172,14 +171,20 @@ def _magnets(
             [
                 Problem(
                     part.name,
-                    f"no place for a magnet ({choice.element.model}) on the chosen faces",
+                    f"no place for a magnet ({choice.element.model}) on the faces of "
+                    f"--magnet-faces {choice.faces}",
                     f"a point of the grid inside a face, covered to {choice.min_overlap:.0%}",
                     "choose other faces, a smaller pitch, or a smaller --min-overlap",
                 )
             ]
         )
     overlap = frozen(np.round(np.concatenate(fractions), DECIMALS))
-    return faces, _kind("magnets", choice, footprint, footprints, overlap)
+    return _carrying(faces, places), _kind("magnets", choice, footprint, footprints, overlap)
+
+
+def _carrying(faces: Sequence[Face], places_mm: Sequence[FloatArray]) -> tuple[Face, ...]:
+    """Return the faces on which there are places."""
+    return tuple(face for face, on in zip(faces, places_mm, strict=True) if len(on))
 
 
 def _grids(faces: Sequence[Face], pitch_mm: float) -> list[FloatArray]:

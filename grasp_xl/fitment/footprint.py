@@ -61,10 +61,10 @@ def footprint_of(element: Element, angle_deg: float = 0.0) -> Footprint:
     >>> footprint_of(Element("M", "magnets", 255.0, length_mm=40.0, width_mm=30.0)).radius_mm
     25.0
     """
-    if element.diameter_mm is not None:
-        radius = element.diameter_mm / 2
+    if element.sides_mm is None:
+        radius = (element.diameter_mm or 0.0) / 2
         return Footprint(Point(0, 0).buffer(radius, QUARTER_SEGMENTS), radius, is_round=True)
-    length, width = (side or 0.0 for side in (element.length_mm, element.width_mm))
+    length, width = element.sides_mm
     if element.shape == "oval":
         half = abs(length - width) / 2
         ends = [(-half, 0), (half, 0)] if length >= width else [(0, -half), (0, half)]

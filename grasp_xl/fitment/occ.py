@@ -27,11 +27,13 @@ from OCP.GeomAbs import (
     GeomAbs_Sphere,
     GeomAbs_Torus,
 )
+from OCP.GeomLib import GeomLib_IsPlanarSurface
+from OCP.gp import gp_Pnt, gp_Vec
 from OCP.GProp import GProp_GProps
 from OCP.IFSelect import IFSelect_RetDone
 from OCP.Message import Message
 from OCP.STEPControl import STEPControl_Reader
-from OCP.TopAbs import TopAbs_FACE, TopAbs_REVERSED, TopAbs_SOLID, TopAbs_WIRE
+from OCP.TopAbs import TopAbs_FACE, TopAbs_REVERSED, TopAbs_SHAPE, TopAbs_SOLID, TopAbs_WIRE
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS
@@ -49,6 +51,12 @@ VOLUME_ACCURACY = 1e-9
 
 ELEMENTARY = (GeomAbs_Plane, GeomAbs_Cylinder, GeomAbs_Cone, GeomAbs_Sphere, GeomAbs_Torus)
 """Surfaces on which the kernel's usual integration leaves nothing to be desired."""
+
+FLAT_MM = 1e-3
+"""How far a flat face may stray from a plane."""
+
+NO_TURN = 1e-6
+"""Turn of a chord's tangents (rad) below which it is straight."""
 
 Shape = Any
 """A ``TopoDS_Shape``: OCP has no types."""
@@ -77,6 +85,26 @@ class Solid:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class Ring:
+    """An edge of a face all around, curves as chords.
+
+    Parameters
+    ----------
+    corners : FloatArray
+        ``(n, 3)``; the last is the first.
+    apexes : FloatArray
+        ``(n - 1, 3)``: where the tangents at both ends of a chord meet; NaN where it is straight.
+    """
+
+    corners: FloatArray
+    apexes: FloatArray
+
+    def turned(self, turn: FloatArray) -> Ring:
+        """Return it after a rotation."""
+        return Ring(self.corners @ turn.T, self.apexes @ turn.T)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class PlaneFace:
     """A flat face.
 
@@ -90,16 +118,16 @@ class PlaneFace:
     shape: Shape
     normal: FloatArray
 
-    def rings(self, sag_mm: float) -> list[FloatArray]:
-        """Return its outline and then its holes, ``(n, 3)`` corners each, arcs as chords."""
+    def rings(self, sag_mm: float) -> list[Ring]:
+        """Return its outline and then its holes."""
         outer = BRepTools.OuterWire_s(self.shape)
         wires = [TopoDS.Wire(wire) for wire in _parts(self.shape, TopAbs_WIRE)]
         holes = [wire for wire in wires if not wire.IsSame(outer)]
-        return [_corners(wire, self.shape, sag_mm) for wire in (outer, *holes)]
+        return [_ring(wire, self.shape, sag_mm) for wire in (outer, *holes)]
 
 
 def read_solids(path: Path) -> tuple[list[Solid], int]:
-    """Read the solids of a STEP file, the largest first, and count its faces.
+    """Read the solids of a STEP file, the largest first, and count the faces of none of them.
 
     Raises
     ------
@@ -111,7 +139,7 @@ def read_solids(path: Path) -> tuple[list[Solid], int]:
     shape = _shape_of(path)
     solids = [_solid(TopoDS.Solid(each)) for each in _parts(shape, TopAbs_SOLID)]
     solids.sort(key=lambda solid: (-solid.volume_mm3, *solid.centroid_mm.tolist()))
-    return solids, sum(1 for _ in _parts(shape, TopAbs_FACE))
+    return solids, sum(1 for _ in _parts(shape, TopAbs_FACE, TopAbs_SOLID))
 
 
 def _shape_of(path: Path) -> Shape:
@@ -150,18 +178,26 @@ def reach_mm(solid: Solid) -> float:
 
 
 def plane_faces(solid: Solid) -> Iterator[PlaneFace]:
-    """Yield the flat faces of a solid."""
+    """Yield the flat faces of a solid, also those that are splines by name."""
     for shape in _parts(solid.shape, TopAbs_FACE):
         face = TopoDS.Face(shape)
-        surface = BRepAdaptor_Surface(face)
-        if surface.GetType() == GeomAbs_Plane:
-            axes = surface.Plane().Position()
-            along = [axes.XDirection(), axes.YDirection()]
-            x, y = (np.array([axis.X(), axis.Y(), axis.Z()]) for axis in along)
-            normal = np.cross(x, y)  # not Direction(): that of a left-handed frame looks back
-            if face.Orientation() == TopAbs_REVERSED:
-                normal = -normal
-            yield PlaneFace(face, frozen(normal + 0.0))
+        if GeomLib_IsPlanarSurface(BRep_Tool.Surface_s(face), FLAT_MM).IsPlanar():
+            yield PlaneFace(face, _normal(face))
+
+
+def _normal(face: Shape) -> FloatArray:
+    """Return the outward unit normal in the middle of a face, from its tangents there.
+
+    The direction of a plane's own frame would look inwards where that is left-handed.
+    """
+    surface = BRepAdaptor_Surface(face)
+    u = (surface.FirstUParameter() + surface.LastUParameter()) / 2
+    v = (surface.FirstVParameter() + surface.LastVParameter()) / 2
+    place, along_u, along_v = gp_Pnt(), gp_Vec(), gp_Vec()
+    surface.D1(u, v, place, along_u, along_v)
+    normal = np.cross(along_u.Coord(), along_v.Coord())
+    normal /= np.linalg.norm(normal)
+    return frozen((-normal if face.Orientation() == TopAbs_REVERSED else normal) + 0.0)
 
 
 def triangles(solid: Solid) -> FloatArray:
@@ -171,8 +207,8 @@ def triangles(solid: Solid) -> FloatArray:
     return frozen(np.concatenate([np.empty((0, 3, 3)), *found]))
 
 
-def _parts(shape: Shape, kind: Any) -> Iterator[Shape]:  # noqa: ANN401 (OCP has no types)
-    explorer = TopExp_Explorer(shape, kind)
+def _parts(shape: Shape, kind: Any, outside: Any = TopAbs_SHAPE) -> Iterator[Shape]:  # noqa: ANN401 (OCP has no types)
+    explorer = TopExp_Explorer(shape, kind, outside)
     while explorer.More():
         yield explorer.Current()
         explorer.Next()
@@ -193,28 +229,48 @@ def _solid(shape: Shape) -> Solid:
     return Solid(shape, abs(volume), frozen([centre.X(), centre.Y(), centre.Z()]))
 
 
-def _corners(wire: Shape, face: Shape, sag_mm: float) -> FloatArray:
-    points: list[tuple[float, float, float]] = []
+def _ring(wire: Shape, face: Shape, sag_mm: float) -> Ring:
+    corners, apexes = [], []
     explorer = BRepTools_WireExplorer(wire, face)
     while explorer.More():
         edge = explorer.Current()
         if not BRep_Tool.Degenerated_s(edge):
-            along = _points(edge, sag_mm)
+            along, tips = _chords(edge, sag_mm)
             if edge.Orientation() == TopAbs_REVERSED:
-                along.reverse()
-            points += along[:-1]  # the last is the first of the next edge
+                along, tips = along[::-1], tips[::-1]
+            corners.append(along[:-1])  # the last is the first of the next edge
+            apexes.append(tips)
         explorer.Next()
-    return frozen(points)
+    if not corners:
+        return Ring(frozen(np.empty((0, 3))), frozen(np.empty((0, 3))))
+    return Ring(frozen(np.concatenate([*corners, corners[0][:1]])), frozen(np.concatenate(apexes)))
 
 
-def _points(edge: Shape, sag_mm: float) -> list[tuple[float, float, float]]:
+def _chords(edge: Shape, sag_mm: float) -> tuple[FloatArray, FloatArray]:
+    """Return the ends of an edge's chords, and their apexes."""
     curve = BRepAdaptor_Curve(edge)
+    first, last = curve.FirstParameter(), curve.LastParameter()
     if curve.GetType() == GeomAbs_Line:
-        ends = (curve.Value(curve.FirstParameter()), curve.Value(curve.LastParameter()))
-        return [(end.X(), end.Y(), end.Z()) for end in ends]
+        ends = [curve.Value(parameter).Coord() for parameter in (first, last)]
+        return np.array(ends), np.full((1, 3), np.nan)
     chords = GCPnts_TangentialDeflection(curve, CHORD_RAD, sag_mm)
-    values = (chords.Value(number) for number in range(1, 1 + chords.NbPoints()))
-    return [(value.X(), value.Y(), value.Z()) for value in values]
+    points, tangents = [], []
+    for number in range(1, 1 + chords.NbPoints()):
+        place, tangent = gp_Pnt(), gp_Vec()
+        curve.D1(chords.Parameter(number), place, tangent)
+        points.append(place.Coord())
+        tangents.append(tangent.Coord())
+    return np.array(points), _apexes(np.array(points), np.array(tangents))
+
+
+def _apexes(points: FloatArray, tangents: FloatArray) -> FloatArray:
+    """Return where the tangents at both ends of each chord meet; NaN where they do not."""
+    start, chord = tangents[:-1], np.diff(points, axis=0)
+    across = np.cross(start, tangents[1:])
+    size = (across**2).sum(axis=1)
+    bent = size > NO_TURN**2 * (start**2).sum(axis=1) * (tangents[1:] ** 2).sum(axis=1)
+    way = (np.cross(chord, tangents[1:]) * across).sum(axis=1) / np.where(bent, size, np.nan)
+    return frozen(points[:-1] + way[:, None] * start)
 
 
 def _triangles_of(face: Shape) -> FloatArray:

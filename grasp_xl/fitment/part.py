@@ -18,6 +18,10 @@ HEIGHT_DECIMALS = 6
 """Faces whose heights agree to so many decimals of a millimetre are level with each other."""
 
 
+LEAST_AREA_MM2 = 1.0
+"""Pieces of a face that are smaller are no faces, and covers that are smaller cover nothing."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Face:
     """A flat, level face that looks up; faces that touch at the same height are one.
@@ -72,6 +76,12 @@ def in_order(faces: Iterable[Face]) -> tuple[Face, ...]:
         return -round(face.height_mm, HEIGHT_DECIMALS), -middle[0], -middle[1]
 
     return tuple(sorted(faces, key=key))
+
+
+def pieces(area: Polygon | MultiPolygon) -> list[Polygon]:
+    """Return the polygons of an area that are worth the name."""
+    parts = shapely.get_parts(area)
+    return [part for part in parts if isinstance(part, Polygon) and part.area >= LEAST_AREA_MM2]
 
 
 def rings_of(area: Polygon | MultiPolygon) -> tuple[FloatArray, ...]:

@@ -15,15 +15,16 @@ from shapely import MultiPolygon, Polygon
 
 from grasp_xl.errors import GraspError, InputError, Problem
 from grasp_xl.file_content import FileKind, read_content
+from grasp_xl.fitment.caps import NO_CAPS, Caps, caps_of, trimmed
 from grasp_xl.fitment.cover import cover_above, plan_of
 from grasp_xl.fitment.orientation import rotation
-from grasp_xl.fitment.part import HEIGHT_DECIMALS, CadPart, Face, in_order
+from grasp_xl.fitment.part import HEIGHT_DECIMALS, LEAST_AREA_MM2, CadPart, Face, in_order, pieces
 from grasp_xl.fitment.part_choice import choose_part
 from grasp_xl.fitment.words import AXES
 from grasp_xl.space import FloatArray, frozen
 
 if TYPE_CHECKING:
-    from grasp_xl.fitment.occ import PlaneFace, Solid
+    from grasp_xl.fitment.occ import PlaneFace, Ring, Solid
 
 SAG_MM = 0.05
 """How far the chords of an arc may stray from it: an edge may lie nearer by so much."""
@@ -31,14 +32,23 @@ SAG_MM = 0.05
 LEVEL_DEG = 0.5
 """How far a face may lean and still be level."""
 
+ROUND_OFF_DEG = 1e-6
+NORMAL_DECIMALS = 7
+"""Normals that agree so far are one: a plane of 10 m strays by a thousandth of a millimetre."""
+
+LEANING_MM = 0.01
+"""How far the edges of a face may lie above and below its height without a note."""
+
 SEAM_MM = 1e-3
 """Half the width of a crack between faces at one height that is closed."""
 
-LEAST_AREA_MM2 = 1.0
-"""Pieces of a face that are smaller are no faces, and covers that are smaller cover nothing."""
-
 MOST_REACH_MM = 1e6
 """How far from the origin a part may lie: beyond, places are no longer exact."""
+
+MOST_TOLD = 3
+"""Faces that notes name, the largest first."""
+
+LEFT_OUT = "that is left out; see --approach"
 
 MAX_FILE_BYTES = 512_000_000
 STEP = FileKind("file", "a STEP file", MAX_FILE_BYTES, "export the part alone")
@@ -61,12 +71,15 @@ class TurnedSolid:
         ``(n, 3, 3)`` triangles after it (mm), counter-clockwise from outside.
     content : bytes
         Of the file.
+    loose_faces : int
+        Of the file, that belong to no solid.
     """
 
     solid: Solid
     turn: FloatArray
     mesh: FloatArray
     content: bytes
+    loose_faces: int
 
     @property
     def sha256(self) -> str:
@@ -100,7 +113,8 @@ def read_solid(path: Path, *, up: str, part: int | None) -> TurnedSolid:
     name = str(path)
     content = read_content(path, STEP)
     _refuse_other_files(content, name)
-    solid = choose_part(_read(path), part, noun="solid", describe=_told, name=name)
+    solids, loose_faces = _read(path)
+    solid = choose_part(solids, part, noun="solid", describe=_told, name=name)
     from grasp_xl.fitment.occ import reach_mm, triangles
 
     if (reach := reach_mm(solid)) > MOST_REACH_MM:
@@ -108,7 +122,8 @@ def read_solid(path: Path, *, up: str, part: int | None) -> TurnedSolid:
         hint = "see whether the unit of length is right, and move the part to the origin in CAD"
         raise InputError([Problem(name, found, f"{MOST_REACH_MM:g} mm at most", hint)])
     turn = rotation(up)
-    return TurnedSolid(solid, turn, frozen(triangles(solid) @ turn.T), content)
+    mesh = frozen(triangles(solid) @ turn.T)
+    return TurnedSolid(solid, turn, mesh, content, loose_faces)
 
 
 def read_step(path: Path, *, up: str, part: int | None, approach_mm: float) -> CadPart:
@@ -132,16 +147,25 @@ def read_step(path: Path, *, up: str, part: int | None, approach_mm: float) -> C
 
     turn = turned.turn
     flat = list(plane_faces(turned.solid))
-    level = _level_faces([face for face in flat if _tilt_deg(face, turn) <= LEVEL_DEG], turn)
-    if not level:
+    facing = [face for face in flat if _tilt_deg(face, turn) <= LEVEL_DEG + ROUND_OFF_DEG]
+    if not facing:
         raise InputError([_no_level_face(flat, up, name)])
+    level, leaning = _level_faces(facing, turn, name)
+    if not level:
+        found = f"faces that look along {up}, all of them smaller than {LEAST_AREA_MM2:g} mm2"
+        hint = "see whether the unit of length is right"
+        raise InputError([Problem(name, found, "a larger one", hint)])
     faces, notes = _reachable(level, turned.mesh, approach_mm, name)
     if not faces:
         found = f"no face that can be reached: all {len(level)} lie under other material"
         hint = "turn the part with --up, or give a smaller --approach"
         raise InputError([Problem(name, found, "a level face with room above it", hint)])
+    notes += leaning
     if UNIT not in turned.content:
         notes.append(Problem(name, "no unit of length", "one", "its numbers are taken as mm"))
+    if turned.loose_faces:
+        found = f"{turned.loose_faces} surfaces beside the solids"
+        notes.append(Problem(name, found, "solids alone", "the surfaces are left out"))
     return CadPart(
         name,
         turned.sha256,
@@ -165,8 +189,8 @@ def _refuse_other_files(content: bytes, name: str) -> None:
         raise InputError([Problem(name, found, STEP.expected, EXPORT)])
 
 
-def _read(path: Path) -> list[Solid]:
-    """Read the solids of a file.
+def _read(path: Path) -> tuple[list[Solid], int]:
+    """Read the solids of a file, and count the faces of none of them.
 
     Raises
     ------
@@ -188,7 +212,7 @@ def _read(path: Path) -> list[Solid]:
         found = f"{faces} surfaces and no solid" if faces else "nothing that has a shape"
         hint = "give the sheet its thickness in CAD: a surface has no mass"
         raise InputError([Problem(name, found, "one solid", hint)])
-    return solids
+    return solids, faces
 
 
 def not_installed(error: ImportError, instead: str) -> GraspError:
@@ -222,19 +246,46 @@ def _no_level_face(flat: Sequence[PlaneFace], up: str, name: str) -> Problem:
     return Problem(name, found, f"one that leans by {LEVEL_DEG} at most", hint)
 
 
-def _level_faces(flat: Iterable[PlaneFace], turn: FloatArray) -> tuple[Face, ...]:
-    """Return faces in plan view; those that touch at one height are one."""
-    by_height: dict[float, list[Polygon]] = {}
+def _level_faces(
+    flat: Iterable[PlaneFace], turn: FloatArray, name: str
+) -> tuple[tuple[Face, ...], list[Problem]]:
+    """Return faces in plan view, one where they touch in a plane; and notes of leaning ones."""
+    planes: dict[tuple[float, ...], list[list[Ring]]] = {}
     for face in flat:
-        rings = [ring @ turn.T for ring in face.rings(SAG_MM)]
-        outline = Polygon(rings[0][:, :2], [ring[:, :2] for ring in rings[1:]])
-        height = round(float(np.mean(rings[0][:, 2])), HEIGHT_DECIMALS)
-        by_height.setdefault(height, []).append(outline)
-    return in_order(
-        Face(outline, height)
-        for height, outlines in by_height.items()
-        for outline in _joined(outlines)
-    )
+        rings = [ring.turned(turn) for ring in face.rings(SAG_MM)]
+        if len(rings[0].corners):
+            normal = turn @ face.normal
+            away = float(np.mean(rings[0].corners[:-1] @ normal))
+            plane = (*np.round(normal, NORMAL_DECIMALS) + 0.0, round(away, HEIGHT_DECIMALS))
+            planes.setdefault(plane, []).append(rings)
+    faces, notes = [], []
+    for (x, y, z, away), several in planes.items():
+        slope = frozen([-x / z, -y / z])
+        for outline in _joined([_outline(rings) for rings in several]):
+            for piece in pieces(trimmed(outline, _caps(several))):
+                middle = shapely.get_coordinates(piece.centroid)[0]
+                height = round(float(away / z + slope @ middle), HEIGHT_DECIMALS)
+                faces.append(Face(piece, height))
+                most = float(np.ptp(shapely.get_coordinates(piece) @ slope)) / 2
+                if most > LEANING_MM:
+                    notes.append(_leaning(name, height, most))
+    return in_order(faces), notes
+
+
+def _leaning(name: str, height_mm: float, most_mm: float) -> Problem:
+    found = f"a face about z {height_mm:.6g} that leans: its edges are up to {most_mm:.2g} mm off"
+    hint = "all places on it stand at its mean height"
+    return Problem(name, found, "a level face", hint)
+
+
+def _outline(rings: Sequence[Ring]) -> Polygon:
+    outer, *holes = (ring.corners[:, :2] for ring in rings)
+    return Polygon(outer, holes)
+
+
+def _caps(faces: Sequence[Sequence[Ring]]) -> Caps:
+    caps = [caps_of(ring.corners[:, :2], ring.apexes[:, :2]) for rings in faces for ring in rings]
+    return np.concatenate([NO_CAPS, *caps])
 
 
 def _joined(outlines: Sequence[Polygon]) -> list[Polygon]:
@@ -243,13 +294,7 @@ def _joined(outlines: Sequence[Polygon]) -> list[Polygon]:
     if len(outlines) > 1:
         wider = shapely.buffer(valid, SEAM_MM, join_style="mitre", mitre_limit=10)
         valid = shapely.union_all(wider).buffer(-SEAM_MM, join_style="mitre", mitre_limit=10)
-    return _pieces(valid)
-
-
-def _pieces(areas: object) -> list[Polygon]:
-    """Return the polygons of areas that are worth the name."""
-    parts = shapely.get_parts(areas)
-    return [part for part in parts if isinstance(part, Polygon) and part.area >= LEAST_AREA_MM2]
+    return pieces(valid)
 
 
 def _reachable(
@@ -258,22 +303,44 @@ def _reachable(
     """Return what of the faces has room above it, and notes of what has not."""
     covers: dict[float, Polygon | MultiPolygon] = {}
     faces: list[Face] = []
-    notes: list[Problem] = []
+    hidden: list[tuple[float, Face]] = []
     for face in level:
         if face.height_mm not in covers:
             covers[face.height_mm] = cover_above(mesh, face.height_mm, approach_mm)
         cover = covers[face.height_mm]
-        hidden = face.outline.intersection(cover).area
-        if hidden < LEAST_AREA_MM2:
+        area = face.outline.intersection(cover).area
+        if area < LEAST_AREA_MM2:
             faces.append(face)
             continue
-        pieces = _pieces(face.outline.difference(cover))
-        faces += [Face(piece, face.height_mm) for piece in pieces]
-        x, y = face.outline.representative_point().coords[0]
-        found = (
-            f"{hidden:,.0f} of {face.outline.area:,.0f} mm2 of the face at z {face.height_mm:.6g}, "
-            f"x {x:.6g} y {y:.6g} under other material"
-        )
-        expected = f"{approach_mm:g} mm of room above"
-        notes.append(Problem(name, found, expected, "that is left out; see --approach"))
-    return in_order(faces), notes
+        left = pieces(face.outline.difference(cover))
+        faces += [Face(piece, face.height_mm) for piece in left]
+        hidden.append((area, face))
+    hidden.sort(key=lambda one: -one[0])
+    notes = [_hidden(area, face, approach_mm, name) for area, face in hidden[:MOST_TOLD]]
+    if rest := hidden[MOST_TOLD:]:
+        found = f"{sum(area for area, _ in rest):,.0f} mm2 of {len(rest)} more faces"
+        found += " under other material"
+        notes.append(Problem(name, found, f"{approach_mm:g} mm of room above", LEFT_OUT))
+    return in_order(faces), notes + _under_a_roof(faces, mesh, approach_mm, name)
+
+
+def _hidden(area: float, face: Face, approach_mm: float, name: str) -> Problem:
+    x, y = face.outline.representative_point().coords[0]
+    found = (
+        f"{area:,.0f} of {face.outline.area:,.0f} mm2 of the face at z {face.height_mm:.6g}, "
+        f"x {x:.6g} y {y:.6g} under other material"
+    )
+    return Problem(name, found, f"{approach_mm:g} mm of room above", LEFT_OUT)
+
+
+def _under_a_roof(
+    faces: Sequence[Face], mesh: FloatArray, approach_mm: float, name: str
+) -> list[Problem]:
+    """Return a note of places under material that is farther up than the approach."""
+    roofs = {face.height_mm: cover_above(mesh, face.height_mm, np.inf) for face in faces}
+    area = sum(face.outline.intersection(roofs[face.height_mm]).area for face in faces)
+    if area < LEAST_AREA_MM2:
+        return []
+    found = f"{area:,.0f} mm2 of the faces under material more than {approach_mm:g} mm above"
+    hint = "places there count as reachable; a larger --approach leaves them out"
+    return [Problem(name, found, "nothing above", hint)]

@@ -63,10 +63,10 @@ def element_model(
         Of the length of an element that is not round, to the x-axis.
     """
     edge = BELL if kind.name == "suction" else MAGNET
-    if element and element.length_mm and element.width_mm and element.shape != "round":
-        size = min(element.length_mm, element.width_mm)
+    if element and element.sides_mm:
+        size = min(element.sides_mm)
         top = edge[-1][1] * size
-        body = Block(element.length_mm, element.width_mm, angle_deg, 0.0, top)
+        body = Block(*element.sides_mm, angle_deg, 0.0, top)
         return ElementModel((body, Turned(_stem(size, top))), size)
     size = kind.diameter_mm or default_mm
     return ElementModel((Turned(_profile(size, edge)),), size)

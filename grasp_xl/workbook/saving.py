@@ -90,6 +90,41 @@ def _refuse_place(target: Path, option: str) -> None:
         raise OSError(errno.EROFS, "")
 
 
+def refuse_theirs(
+    target: Path, marks: Sequence[str], command: str, *, force: bool, option: str = "-o"
+) -> None:
+    """Refuse to replace a file in which none of our marks stands, such as the part's own.
+
+    Parameters
+    ----------
+    target : Path
+    marks : sequence of str
+    command : str
+        That writes such files.
+    force : bool
+        Replace it all the same.
+    option : str
+        Which option names it.
+
+    Raises
+    ------
+    OutputError
+        If it is somebody else's.
+    """
+    if force or not target.exists():
+        return
+    try:
+        content = target.read_bytes()
+    except OSError as error:
+        raise _cannot_write(target, error) from error
+    if not any(mark.encode() in content for mark in marks):
+        raise OutputError(
+            f"{target} exists and grasp-xl {command} did not write it, so nothing was written.",
+            where=str(target),
+            hint=f"Name another file with {option}, or add --force to replace it",
+        )
+
+
 def check_target(target: Path, source: Path, *, in_place: bool, force: bool) -> None:
     """Refuse a workbook that could not be written, before any work is done.
 

@@ -166,8 +166,9 @@ def export_workbook(space: OptionSpace, part: PartRecord | None = None) -> Writt
     if part:
         pens.append(Pen(book, formats, layout.PART_SHEET))
         write_part(pens[-1], part)
+    book.set_custom_property(STAMP_PROPERTY, PLACEHOLDER)
     book.close()
-    return WrittenBook(file.getvalue(), {pen.name: pen.written for pen in pens}, {})
+    return WrittenBook(stamped(file.getvalue()), {pen.name: pen.written for pen in pens}, {})
 
 
 def _new_book(file: io.BytesIO) -> xlsxwriter.Workbook:
