@@ -1,0 +1,130 @@
+// A design on the part: elements, frame, numbers, centroid and centre of force, as layers.
+
+import { frame } from "./grip.js";
+import { line } from "./lines.js";
+import { centroidMark, discard, forceMark, label } from "./marks.js";
+import { bar, elementMeshes } from "./solids.js";
+import { Color, Group, MeshLambertMaterial, Vector3 } from "./three.js";
+
+const LIT = 0.28;
+
+function elementGroups(scene, grasp) {
+  return grasp.elements.map((element) => {
+    const group = new Group();
+    group.position.set(...element.place);
+    group.add(...elementMeshes(scene.kinds[element.kind]));
+    group.userData.element = element;
+    return group;
+  });
+}
+
+function barGroup(bars, material) {
+  const group = new Group();
+  if (bars.length) group.add(...bars.map((each) => bar(each, material)));
+  return group;
+}
+
+/** Everything of one design; `top` is the height of its frame. */
+export class Gripper {
+  constructor(scene, grasp) {
+    this.scene = scene;
+    this.grasp = grasp;
+    const bars = frame(scene, grasp);
+    this.top = bars.height + scene.frame.main_radius_mm;
+    this.materials = {
+      main: new MeshLambertMaterial(),
+      branches: new MeshLambertMaterial(),
+      posts: new MeshLambertMaterial(),
+    };
+    const elements = new Group();
+    this.elements = elementGroups(scene, grasp);
+    elements.add(...this.elements);
+    const frames = new Group();
+    for (const [name, material] of Object.entries(this.materials)) {
+      frames.add(barGroup(bars[name], material));
+    }
+    this.layers = { elements, frame: frames, centres: new Group(), numbers: new Group() };
+    this.group = new Group();
+    this.group.add(...Object.values(this.layers));
+  }
+
+  /** Take the colours of a theme; labels are drawn anew in them. */
+  paint(theme) {
+    for (const [name, material] of Object.entries(this.materials)) material.color.set(theme[name]);
+    this.#drawCentres(theme);
+    this.#drawNumbers(theme);
+  }
+
+  #drawCentres(theme) {
+    const { centres } = this.layers;
+    discard(centres);
+    const [centroid, force] = [this.scene.part.centroid_mm, this.grasp.centre_mm];
+    const left = force[0] >= centroid[0] ? -1 : 1;
+    const add = (sprite, place) => {
+      sprite.position.set(...place);
+      centres.add(sprite);
+    };
+    const offset = line([centroid, force], 1.5);
+    offset.material.color.set(theme.force);
+    offset.material.depthTest = false;
+    offset.renderOrder = 1;
+    centres.add(offset);
+    add(centroidMark(theme.ink, theme.paper), centroid);
+    add(forceMark(theme.force, theme.paper), force);
+    add(label("Centroid", theme.ink, theme.stage, { side: left, gap: 10 }), centroid);
+    const name = label("Centre of force", theme.force, theme.stage, { side: -left, gap: 10 });
+    add(name, force);
+  }
+
+  #drawNumbers(theme) {
+    const { numbers } = this.layers;
+    discard(numbers);
+    for (const element of this.grasp.elements) {
+      const kind = this.scene.kinds[element.kind];
+      const sprite = label(String(element.index), theme.ink, theme.stage, { side: 1, gap: 4 });
+      const [x, y, z] = element.place;
+      sprite.position.set(x, y, z + kind.height_mm);
+      numbers.add(sprite);
+    }
+  }
+
+  /** Keep marks at their size on the screen, in a picture of some height in pixels. */
+  size(eye, height) {
+    const here = new Vector3();
+    for (const layer of [this.layers.centres, this.layers.numbers]) {
+      for (const sprite of layer.children) {
+        if (!sprite.isSprite) continue;
+        const pixel = eye.pixel(sprite.getWorldPosition(here), height);
+        const [wide, high] = sprite.userData.size;
+        sprite.scale.set(wide * pixel, high * pixel, 1);
+      }
+    }
+  }
+
+  /** Light one element, or none. */
+  light(chosen) {
+    for (const group of this.elements) {
+      const lit = group.userData.element === chosen;
+      for (const mesh of group.children) {
+        if (lit && !mesh.userData.plain) {
+          mesh.userData.plain = mesh.material;
+          mesh.material = mesh.material.clone();
+          mesh.material.emissive = new Color(LIT, LIT, LIT);
+        } else if (!lit && mesh.userData.plain) {
+          mesh.material.dispose();
+          mesh.material = mesh.userData.plain;
+          delete mesh.userData.plain;
+        }
+      }
+    }
+  }
+
+  /** Free what it alone holds; shapes of elements are shared. */
+  dispose() {
+    discard(this.layers.centres);
+    discard(this.layers.numbers);
+    this.light(null);
+    for (const material of Object.values(this.materials)) material.dispose();
+    this.layers.frame.traverse((each) => each.geometry?.dispose());
+  }
+}
