@@ -3,8 +3,9 @@
 import { frame } from "./grip.js";
 import { line } from "./lines.js";
 import { centroidMark, discard, forceMark, label } from "./marks.js";
+import { solid } from "./shading.js";
 import { bar, elementMeshes } from "./solids.js";
-import { Color, Group, MeshLambertMaterial, Vector3 } from "./three.js";
+import { Group, Vector3 } from "./three.js";
 
 const LIT = 0.28;
 
@@ -32,9 +33,9 @@ export class Gripper {
     const bars = frame(scene, grasp);
     this.top = bars.height + scene.frame.main_radius_mm;
     this.materials = {
-      main: new MeshLambertMaterial(),
-      branches: new MeshLambertMaterial(),
-      posts: new MeshLambertMaterial(),
+      main: solid(),
+      branches: solid(),
+      posts: solid(),
     };
     const elements = new Group();
     this.elements = elementGroups(scene, grasp);
@@ -50,7 +51,7 @@ export class Gripper {
 
   /** Take the colours of a theme; labels are drawn anew in them. */
   paint(theme) {
-    for (const [name, material] of Object.entries(this.materials)) material.color.set(theme[name]);
+    for (const [name, material] of Object.entries(this.materials)) material.paint(theme[name]);
     this.#drawCentres(theme);
     this.#drawNumbers(theme);
   }
@@ -64,9 +65,8 @@ export class Gripper {
       sprite.position.set(...place);
       centres.add(sprite);
     };
-    const offset = line([centroid, force], 1.5);
-    offset.material.color.set(theme.force);
-    offset.material.depthTest = false;
+    const offset = line([centroid, force], 1.5, { depthTest: false });
+    offset.material.paint(theme.force);
     offset.renderOrder = 1;
     centres.add(offset);
     add(centroidMark(theme.ink, theme.paper), centroid);
@@ -109,7 +109,7 @@ export class Gripper {
         if (lit && !mesh.userData.plain) {
           mesh.userData.plain = mesh.material;
           mesh.material = mesh.material.clone();
-          mesh.material.emissive = new Color(LIT, LIT, LIT);
+          mesh.material.uniforms.glow.value = LIT;
         } else if (!lit && mesh.userData.plain) {
           mesh.material.dispose();
           mesh.material = mesh.userData.plain;

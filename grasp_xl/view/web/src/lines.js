@@ -1,22 +1,36 @@
 // Lines of a width in pixels.
 
-import { LineMaterial, LineSegments2, LineSegmentsGeometry } from "./three.js";
+import { wide } from "./shading.js";
+import {
+  Float32BufferAttribute,
+  InstancedBufferAttribute,
+  InstancedBufferGeometry,
+  Mesh,
+  Vector4,
+} from "./three.js";
 
-/** A line through points, closed or not. */
-export function line(points, width, { closed = false, dashed = null } = {}) {
-  const ends = [];
-  points.forEach((point, number) => {
-    const next = points[number + 1] ?? (closed ? points[0] : null);
-    if (next) ends.push(...point, ...next);
-  });
-  const geometry = new LineSegmentsGeometry();
-  geometry.setPositions(ends);
-  const material = new LineMaterial({ linewidth: width });
-  if (dashed) {
-    material.dashed = true;
-    [material.dashSize, material.gapSize] = dashed;
-  }
-  const segments = new LineSegments2(geometry, material);
-  if (dashed) segments.computeLineDistances();
-  return segments;
+/** A strip: x across, y along. */
+const STRIP = [-1, 0, 0, 1, 0, 0, 1, 1, 0, -1, 0, 0, 1, 1, 0, -1, 1, 0];
+
+const viewport = new Vector4();
+
+/** A line through points, closed or not; options are those of its material. */
+export function line(points, width, { closed = false, ...options } = {}) {
+  const starts = closed ? points : points.slice(0, -1);
+  const ends = points.slice(1).concat(closed ? [points[0]] : []);
+  const geometry = new InstancedBufferGeometry();
+  geometry.instanceCount = starts.length;
+  geometry.setAttribute("position", new Float32BufferAttribute(STRIP, 3));
+  const place = (list) => new InstancedBufferAttribute(new Float32Array(list.flat()), 3);
+  geometry.setAttribute("start", place(starts));
+  geometry.setAttribute("end", place(ends));
+  const mesh = new Mesh(geometry, wide(width, options));
+  mesh.frustumCulled = false;
+  mesh.onBeforeRender = (renderer) => {
+    renderer.getCurrentViewport(viewport);
+    mesh.material.uniforms.picture.value.set(viewport.z, viewport.w);
+    mesh.material.uniforms.width.value = width * renderer.getPixelRatio();
+    mesh.material.uniformsNeedUpdate = true;
+  };
+  return mesh;
 }

@@ -97,18 +97,6 @@ export function forceMark(colour, paper) {
   return sprite;
 }
 
-/** A round dot, as the picture of each place. */
-export function dot() {
-  const size = 32;
-  const canvas = document.createElement("canvas");
-  canvas.width = canvas.height = size;
-  const pen = canvas.getContext("2d");
-  pen.fillStyle = "#fff";
-  pen.arc(size / 2, size / 2, size / 2 - 1, 0, 2 * Math.PI);
-  pen.fill();
-  return new CanvasTexture(canvas);
-}
-
 /** Free what a group of marks holds on the graphics card. */
 export function discard(group) {
   for (const sprite of group.children) {

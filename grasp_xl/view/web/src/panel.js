@@ -25,6 +25,17 @@ function valueCell(row, grasp, scene) {
   return value;
 }
 
+function cardLine(row, scene, entries) {
+  const unit = row.unit ? make("span", { class: "unit" }, ` ${row.unit}`) : null;
+  const values = entries.map(({ grasp }) => valueCell(row, grasp, scene));
+  const name = make("th", { scope: "row" }, row.label, unit);
+  if (row.vector && values.length === 1) {
+    values[0].colSpan = 2;
+    return make("tr", {}, name, values);
+  }
+  return make("tr", {}, name, cell(row.goal?.(scene.rules) ?? "", { class: "number goal" }), values);
+}
+
 function cardTable(scene, entries) {
   const head = make(
     "tr",
@@ -36,21 +47,8 @@ function cardTable(scene, entries) {
   const bodies = cardRows(scene).map(([title, rows]) => {
     const width = 2 + entries.length;
     const heading = make("th", { scope: "rowgroup", colspan: width, class: "group" }, title);
-    return make(
-      "tbody",
-      {},
-      make("tr", {}, heading),
-      rows.map((row) => {
-        const unit = row.unit ? make("span", { class: "unit" }, ` ${row.unit}`) : null;
-        return make(
-          "tr",
-          {},
-          make("th", { scope: "row" }, row.label, unit),
-          make("td", { class: "number goal" }, row.goal?.(scene.rules) ?? ""),
-          entries.map(({ grasp }) => valueCell(row, grasp, scene)),
-        );
-      }),
-    );
+    const lines = rows.map((row) => cardLine(row, scene, entries));
+    return make("tbody", {}, make("tr", {}, heading), lines);
   });
   return make("table", { class: "card" }, make("thead", {}, head), bodies);
 }

@@ -2,15 +2,13 @@
 
 import { creased, featureEdges } from "./creases.js";
 import { areas } from "./rings.js";
+import { solid, thin } from "./shading.js";
 import {
   BufferAttribute,
   BufferGeometry,
-  DoubleSide,
   Group,
-  LineBasicMaterial,
   LineSegments,
   Mesh,
-  MeshLambertMaterial,
   ShapeUtils,
   Vector2,
 } from "./three.js";
@@ -69,13 +67,8 @@ function shapes(scene) {
 /** The part as a group; addEdges() draws its edges, and paint() gives it the theme's colours. */
 export function partGroup(scene) {
   const { surfaces, edges } = shapes(scene);
-  const skin = new MeshLambertMaterial({
-    side: DoubleSide,
-    polygonOffset: true,
-    polygonOffsetFactor: 1,
-    polygonOffsetUnits: 1,
-  });
-  const line = new LineBasicMaterial();
+  const skin = solid({ behindLines: true });
+  const line = thin();
   const group = new Group();
   group.add(...surfaces.map((geometry) => new Mesh(geometry, skin)));
   return {
@@ -86,8 +79,8 @@ export function partGroup(scene) {
       group.add(new LineSegments(geometry, line));
     },
     paint(theme) {
-      skin.color.set(theme.part);
-      line.color.set(theme.edge);
+      skin.paint(theme.part);
+      line.paint(theme.edge);
     },
   };
 }

@@ -1,12 +1,11 @@
 // Simple solids of elements and frame, as meshes.
 
+import { solid } from "./shading.js";
 import {
   BoxGeometry,
   CylinderGeometry,
-  DoubleSide,
   LatheGeometry,
   Mesh,
-  MeshLambertMaterial,
   Vector2,
   Vector3,
 } from "./three.js";
@@ -39,9 +38,9 @@ function shapesOf(kind) {
   if (!made.has(kind)) {
     made.set(
       kind,
-      kind.solids.flatMap((solid) => {
-        const material = new MeshLambertMaterial({ color: solid.colour, side: DoubleSide });
-        const geometries = solid.profile_mm ? turned(solid.profile_mm) : box(solid);
+      kind.solids.flatMap((each) => {
+        const material = solid({ colour: each.colour });
+        const geometries = each.profile_mm ? turned(each.profile_mm) : box(each);
         return geometries.map((geometry) => ({ geometry, material }));
       }),
     );

@@ -6,7 +6,7 @@ import { elementAt, placeAt } from "./pick.js";
 import { steer } from "./steering.js";
 import { surroundings } from "./surroundings.js";
 import { theme } from "./theme.js";
-import { DirectionalLight, HemisphereLight, Scene, WebGLRenderer } from "./three.js";
+import { Scene, WebGLRenderer } from "./three.js";
 
 const MOST_PIXELS = 2;
 const GLIDE_MS = 220;
@@ -32,8 +32,6 @@ export class Stage {
     this.space = new Scene();
     this.around = surroundings(scene);
     this.space.add(...Object.values(this.around.layers));
-    this.lamp = new DirectionalLight(0xffffff, 1.7);
-    this.space.add(new HemisphereLight(0xffffff, 0x9aa3ad, 1.6), this.lamp, this.lamp.target);
     this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.debug.checkShaderErrors = false;
     this.renderer.autoClear = false;
@@ -61,7 +59,9 @@ export class Stage {
     const panes = this.grippers.length;
     this.grippers = grasps.map((grasp) => this.#gripper(grasp, kept));
     this.#applyLayers();
-    if (!panes) this.fit({ glide: false });
+    if (!panes && grasps.length) {
+      this.fit({ glide: false });
+    }
     else if (panes !== grasps.length) this.fit();
     this.told(null);
     this.draw();
@@ -205,8 +205,6 @@ export class Stage {
     this.waiting = false;
     const { renderer, eye } = this;
     if (!this.grippers.length) return;
-    const { back, up, right } = eye.axes();
-    this.lamp.position.copy(back).addScaledVector(up, 0.7).addScaledVector(right, -0.35);
     renderer.setScissor(0, 0, this.width, this.height);
     renderer.setViewport(0, 0, this.width, this.height);
     renderer.clear();

@@ -1,54 +1,54 @@
 // What every design shares: the part, all places, and both polygons, as layers.
 
 import { line } from "./lines.js";
-import { dot } from "./marks.js";
 import { partGroup } from "./part.js";
+import { dots } from "./shading.js";
 import {
   BufferGeometry,
   Float32BufferAttribute,
   Group,
   Points,
-  PointsMaterial,
   Vector3,
 } from "./three.js";
 
+/** Pixels of a place, and its opacity. */
+const DOT = 4;
+const FAINT = 0.6;
+/** Opacity of a line behind the part. */
+const HIDDEN = 0.3;
+
 function placesGroup(scene) {
   const group = new Group();
-  const map = dot();
-  const dots = scene.kinds.filter((kind) => kind.total).map((kind) => {
+  const clouds = scene.kinds.filter((kind) => kind.total).map((kind) => {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new Float32BufferAttribute(kind.places, 3));
-    const material = new PointsMaterial({
-      color: kind.colour,
-      map,
-      transparent: true,
-      depthWrite: false,
-      sizeAttenuation: false,
-    });
-    return new Points(geometry, material);
+    return new Points(geometry, dots(kind.colour, FAINT));
   });
-  if (dots.length) group.add(...dots);
+  if (clouds.length) group.add(...clouds);
   return {
     group,
-    paint(theme, ratio) {
-      for (const each of dots) {
-        each.material.opacity = theme.faint;
-        each.material.size = 4 * ratio;
-      }
+    paint(_, ratio) {
+      for (const { material } of clouds) material.uniforms.size.value = DOT * ratio;
     },
   };
 }
 
+/** A closed line, and its faint image where something is before it. */
+function seenThrough(points, width) {
+  const behind = { depthTest: false, depthWrite: false, transparent: true, opacity: HIDDEN };
+  return [line(points, width, { closed: true }), line(points, width, { closed: true, ...behind })];
+}
+
 function polygonsGroup(scene) {
   const group = new Group();
-  const outer = line(scene.part_polygon_mm, 2, { closed: true });
-  const ideal = line(scene.ideal_polygon_mm, 2.5, { closed: true });
-  group.add(outer, ideal);
+  const outer = seenThrough(scene.part_polygon_mm, 2);
+  const ideal = seenThrough(scene.ideal_polygon_mm, 2.5);
+  group.add(...outer, ...ideal);
   return {
     group,
     paint(theme) {
-      outer.material.color.set(theme.partPolygon);
-      ideal.material.color.set(theme.idealPolygon);
+      for (const each of outer) each.material.paint(theme.partPolygon);
+      for (const each of ideal) each.material.paint(theme.idealPolygon);
     },
   };
 }

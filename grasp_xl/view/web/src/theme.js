@@ -17,7 +17,6 @@ export function theme() {
     partPolygon: colour("part-polygon"),
     idealPolygon: colour("ideal-polygon"),
     force: colour("force"),
-    faint: Number(colour("faint")),
   };
 }
 
