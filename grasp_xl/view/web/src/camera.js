@@ -61,14 +61,6 @@ export class Eye {
     return camera;
   }
 
-  /** Height (mm) of what a picture of some pixels shows in one of them, at a point. */
-  pixel(point, height) {
-    if (!this.perspective) return this.span / height;
-    const { back } = this.axes();
-    const nearer = point.clone().sub(this.target).dot(back);
-    return (this.span - 2 * SLOPE * nearer) / height;
-  }
-
   /** What a fit to points, in a picture of some aspect, would have as target and span. */
   fitted(points, aspect) {
     const { right, up, back } = this.axes();

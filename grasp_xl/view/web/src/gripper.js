@@ -5,7 +5,7 @@ import { line } from "./lines.js";
 import { centroidMark, discard, forceMark, label } from "./marks.js";
 import { solid } from "./shading.js";
 import { bar, elementMeshes } from "./solids.js";
-import { Group, Vector3 } from "./three.js";
+import { Group } from "./three.js";
 
 const LIT = 0.28;
 
@@ -61,9 +61,9 @@ export class Gripper {
     discard(centres);
     const [centroid, force] = [this.scene.part.centroid_mm, this.grasp.centre_mm];
     const left = force[0] >= centroid[0] ? -1 : 1;
-    const add = (sprite, place) => {
-      sprite.position.set(...place);
-      centres.add(sprite);
+    const add = (mark, place) => {
+      mark.position.set(...place);
+      centres.add(mark);
     };
     const offset = line([centroid, force], 1.5, { depthTest: false });
     offset.material.paint(theme.force);
@@ -71,9 +71,8 @@ export class Gripper {
     centres.add(offset);
     add(centroidMark(theme.ink, theme.paper), centroid);
     add(forceMark(theme.force, theme.paper), force);
-    add(label("Centroid", theme.ink, theme.stage, { side: left, gap: 10 }), centroid);
-    const name = label("Centre of force", theme.force, theme.stage, { side: -left, gap: 10 });
-    add(name, force);
+    add(label("Centroid", theme.ink, theme.stage, left, 10), centroid);
+    add(label("Centre of force", theme.force, theme.stage, -left, 10), force);
   }
 
   #drawNumbers(theme) {
@@ -81,23 +80,10 @@ export class Gripper {
     discard(numbers);
     for (const element of this.grasp.elements) {
       const kind = this.scene.kinds[element.kind];
-      const sprite = label(String(element.index), theme.ink, theme.stage, { side: 1, gap: 4 });
+      const mark = label(String(element.index), theme.ink, theme.stage, 1, 4);
       const [x, y, z] = element.place;
-      sprite.position.set(x, y, z + kind.height_mm);
-      numbers.add(sprite);
-    }
-  }
-
-  /** Keep marks at their size on the screen, in a picture of some height in pixels. */
-  size(eye, height) {
-    const here = new Vector3();
-    for (const layer of [this.layers.centres, this.layers.numbers]) {
-      for (const sprite of layer.children) {
-        if (!sprite.isSprite) continue;
-        const pixel = eye.pixel(sprite.getWorldPosition(here), height);
-        const [wide, high] = sprite.userData.size;
-        sprite.scale.set(wide * pixel, high * pixel, 1);
-      }
+      mark.position.set(x, y, z + kind.height_mm);
+      numbers.add(mark);
     }
   }
 

@@ -1,18 +1,15 @@
 // Lines of a width in pixels.
 
-import { wide } from "./shading.js";
+import { inPixels, wide } from "./shading.js";
 import {
   Float32BufferAttribute,
   InstancedBufferAttribute,
   InstancedBufferGeometry,
   Mesh,
-  Vector4,
 } from "./three.js";
 
 /** A strip: x across, y along. */
 const STRIP = [-1, 0, 0, 1, 0, 0, 1, 1, 0, -1, 0, 0, 1, 1, 0, -1, 1, 0];
-
-const viewport = new Vector4();
 
 /** A line through points, closed or not; options are those of its material. */
 export function line(points, width, { closed = false, ...options } = {}) {
@@ -26,11 +23,6 @@ export function line(points, width, { closed = false, ...options } = {}) {
   geometry.setAttribute("end", place(ends));
   const mesh = new Mesh(geometry, wide(width, options));
   mesh.frustumCulled = false;
-  mesh.onBeforeRender = (renderer) => {
-    renderer.getCurrentViewport(viewport);
-    mesh.material.uniforms.picture.value.set(viewport.z, viewport.w);
-    mesh.material.uniforms.width.value = width * renderer.getPixelRatio();
-    mesh.material.uniformsNeedUpdate = true;
-  };
+  mesh.onBeforeRender = inPixels;
   return mesh;
 }

@@ -8,7 +8,7 @@ import { find, make } from "./dom.js";
 import { genesText, readGenes } from "./genes.js";
 import { DesignList } from "./list.js";
 import { fillPanel } from "./panel.js";
-import { Stage } from "./stage.js";
+import { pixelRatio, Stage } from "./stage.js";
 import { support } from "./support.js";
 import { onThemeChange } from "./theme.js";
 import { showTooltip } from "./tooltip.js";
@@ -43,6 +43,9 @@ function entry(position) {
 
 function openStage() {
   const options = { antialias: true, preserveDrawingBuffer: true, powerPreference: "low-power" };
+  const ratio = pixelRatio();
+  canvas.width = canvas.clientWidth * ratio;
+  canvas.height = canvas.clientHeight * ratio;
   const context = canvas.getContext("webgl2", options);
   if (!context) {
     find("stage").classList.add("without");

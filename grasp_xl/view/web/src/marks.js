@@ -1,23 +1,30 @@
 // Marks and labels that keep their size on the screen, drawn on small canvases.
 
-import { CanvasTexture, Sprite, SpriteMaterial, SRGBColorSpace } from "./three.js";
+import { inPixels, mark } from "./shading.js";
+import { BufferGeometry, CanvasTexture, Float32BufferAttribute, Mesh } from "./three.js";
 
 const FONT = "600 13px system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', sans-serif";
 /** Pixels of the canvas for one of the screen. */
 const FINE = 2;
 
-function drawn(width, height, draw) {
+const SQUARE = new BufferGeometry();
+SQUARE.setAttribute("position", new Float32BufferAttribute([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0], 3));
+SQUARE.setIndex([0, 1, 2, 0, 2, 3]);
+
+/** A picture of a size in pixels whose lower left corner is so far from what it marks. */
+function drawn(width, height, [left, low], order, draw) {
   const canvas = document.createElement("canvas");
   canvas.width = Math.ceil(width * FINE);
   canvas.height = Math.ceil(height * FINE);
   const pen = canvas.getContext("2d");
   pen.scale(FINE, FINE);
   draw(pen);
-  const map = new CanvasTexture(canvas);
-  map.colorSpace = SRGBColorSpace;
-  const sprite = new Sprite(new SpriteMaterial({ map, depthTest: false, depthWrite: false }));
-  sprite.userData.size = [width, height];
-  return sprite;
+  const material = mark(new CanvasTexture(canvas), [left, low, left + width, low + height]);
+  const mesh = new Mesh(SQUARE, material);
+  mesh.renderOrder = order;
+  mesh.frustumCulled = false;
+  mesh.onBeforeRender = inPixels;
+  return mesh;
 }
 
 let ruler = null;
@@ -28,10 +35,11 @@ function widthOf(text) {
   return ruler.measureText(text).width;
 }
 
-/** Text with a halo; `side` puts it left of (-1), on (0) or right of (1) its point. */
-export function label(text, colour, halo, { side = 0, gap = 0, lift = 0.5 } = {}) {
+/** Text with a halo, so many pixels left (side -1) or right (1) of its point. */
+export function label(text, colour, halo, side, gap) {
   const [width, height] = [widthOf(text) + 10, 22];
-  const sprite = drawn(width, height, (pen) => {
+  const left = side < 0 ? -gap - width : gap;
+  return drawn(width, height, [left, -height / 2], 3, (pen) => {
     pen.font = FONT;
     pen.textBaseline = "middle";
     pen.lineJoin = "round";
@@ -41,16 +49,12 @@ export function label(text, colour, halo, { side = 0, gap = 0, lift = 0.5 } = {}
     pen.fillStyle = colour;
     pen.fillText(text, 5, height / 2);
   });
-  const shift = gap / width;
-  sprite.center.set(side < 0 ? 1 + shift : side > 0 ? -shift : 0.5, lift);
-  sprite.renderOrder = 3;
-  return sprite;
 }
 
 /** The engineer's sign of a centroid: a circle of four quarters. */
 export function centroidMark(ink, paper) {
   const size = 22;
-  const sprite = drawn(size, size, (pen) => {
+  return drawn(size, size, [-size / 2, -size / 2], 2, (pen) => {
     const [middle, radius] = [size / 2, size / 2 - 2];
     const circle = (from, to, colour) => {
       pen.beginPath();
@@ -68,14 +72,12 @@ export function centroidMark(ink, paper) {
     pen.strokeStyle = ink;
     pen.stroke();
   });
-  sprite.renderOrder = 2;
-  return sprite;
 }
 
 /** A diamond with a dot: where the forces act as one. */
 export function forceMark(colour, paper) {
   const size = 22;
-  const sprite = drawn(size, size, (pen) => {
+  return drawn(size, size, [-size / 2, -size / 2], 2, (pen) => {
     const middle = size / 2;
     pen.beginPath();
     pen.moveTo(middle, 2);
@@ -93,16 +95,14 @@ export function forceMark(colour, paper) {
     pen.fillStyle = colour;
     pen.fill();
   });
-  sprite.renderOrder = 2;
-  return sprite;
 }
 
 /** Free what a group of marks holds on the graphics card. */
 export function discard(group) {
-  for (const sprite of group.children) {
-    sprite.material.map?.dispose();
-    sprite.material.dispose();
-    sprite.geometry?.isBufferGeometry && !sprite.isSprite && sprite.geometry.dispose();
+  for (const mesh of group.children) {
+    mesh.material.uniforms.map?.value.dispose();
+    mesh.material.dispose();
+    if (mesh.geometry !== SQUARE) mesh.geometry.dispose();
   }
   group.clear();
 }

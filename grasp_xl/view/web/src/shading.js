@@ -1,7 +1,7 @@
 // How surfaces, dots and lines are drawn: programs so small that they compile in no time, also
 // where a processor stands in for the graphics card.
 
-import { Color, DoubleSide, FrontSide, GLSL3, RawShaderMaterial, Vector2 } from "./three.js";
+import { Color, DoubleSide, FrontSide, GLSL3, RawShaderMaterial, Vector2, Vector4 } from "./three.js";
 
 const HEAD = "precision highp float; uniform mat4 modelViewMatrix, projectionMatrix;";
 
@@ -94,7 +94,7 @@ export function wide(width, options = {}) {
     { side: DoubleSide, ...options },
     `
     uniform vec2 picture;
-    uniform float width;
+    uniform float width, ratio;
     in vec3 position, start, end;
     const float NEAR = 1e-3;
     void main() {
@@ -106,11 +106,45 @@ export function wide(width, options = {}) {
       along = length(along) > 0.0 ? normalize(along) : vec2(1.0, 0.0);
       vec2 away = position.x * vec2(-along.y, along.x) + (2.0 * position.y - 1.0) * along;
       gl_Position = position.y < 0.5 ? a : b;
-      gl_Position.xy += away * width / picture * gl_Position.w;
+      gl_Position.xy += away * width * ratio / picture * gl_Position.w;
     }`,
     "void main() { pixel = shown(colour); }",
-    { width, picture: new Vector2(1, 1) },
+    { width, ratio: 1, picture: new Vector2(1, 1) },
   );
+}
+
+/** A flat picture that faces the eye, its corners so many pixels from the point it marks. */
+export function mark(map, box) {
+  return material(
+    { transparent: true, depthTest: false, depthWrite: false },
+    `
+    uniform vec2 picture;
+    uniform vec4 box;
+    uniform float ratio;
+    in vec3 position;
+    out vec2 spot;
+    void main() {
+      spot = position.xy;
+      gl_Position = projectionMatrix * modelViewMatrix * vec4(0.0, 0.0, 0.0, 1.0);
+      vec2 away = floor(mix(box.xy, box.zw, spot) * ratio + 0.5);
+      gl_Position.xy += 2.0 * away / picture * gl_Position.w;
+    }`,
+    `
+    uniform sampler2D map;
+    in vec2 spot;
+    void main() { pixel = texture(map, spot); }`,
+    { map, box: new Vector4(...box), ratio: 1, picture: new Vector2(1, 1) },
+  );
+}
+
+const viewport = new Vector4();
+
+/** Tell a material that draws in pixels how many the picture has: a mesh's onBeforeRender. */
+export function inPixels(renderer, _scene, _camera, _geometry, material) {
+  renderer.getCurrentViewport(viewport);
+  material.uniforms.picture.value.set(viewport.z, viewport.w);
+  material.uniforms.ratio.value = renderer.getPixelRatio();
+  material.uniformsNeedUpdate = true;
 }
 
 /** Lines as thin as a screen draws them. */

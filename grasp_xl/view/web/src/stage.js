@@ -8,7 +8,6 @@ import { surroundings } from "./surroundings.js";
 import { theme } from "./theme.js";
 import { Scene, WebGLRenderer } from "./three.js";
 
-const MOST_PIXELS = 2;
 const GLIDE_MS = 220;
 /** Pixels between the two panes. */
 const GAP = 2;
@@ -16,6 +15,9 @@ const GAP = 2;
 export const LAYERS = ["part", "elements", "frame", "places", "polygons", "centres", "numbers"];
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
+
+/** Pixels of the picture for one of the page. */
+export const pixelRatio = () => Math.min(devicePixelRatio, 2);
 
 export class Stage {
   /** `told(found, pane)` follows the pointer: what is under it, or null. */
@@ -160,7 +162,7 @@ export class Stage {
     if (this.printing) return;
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     if (!clientWidth || !clientHeight) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXELS));
+    this.renderer.setPixelRatio(pixelRatio());
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.width = clientWidth;
     this.height = clientHeight;
@@ -210,7 +212,6 @@ export class Stage {
     renderer.clear();
     this.#panes().forEach(({ left, top, width, height }, number) => {
       this.grippers.forEach((each, other) => (each.group.visible = other === number));
-      this.grippers[number].size(eye, height);
       const bottom = this.height - top - height;
       renderer.setViewport(left, bottom, width, height);
       renderer.setScissor(left, bottom, width, height);

@@ -15,7 +15,7 @@ import {
 const DOT = 4;
 const FAINT = 0.6;
 /** Opacity of a line behind the part. */
-const HIDDEN = 0.3;
+const HIDDEN = 0.45;
 
 function placesGroup(scene) {
   const group = new Group();
