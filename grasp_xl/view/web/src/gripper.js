@@ -71,8 +71,8 @@ export class Gripper {
     centres.add(offset);
     add(centroidMark(theme.ink, theme.paper), centroid);
     add(forceMark(theme.force, theme.paper), force);
-    add(label("Centroid", theme.ink, theme.stage, left, 10), centroid);
-    add(label("Centre of force", theme.force, theme.stage, -left, 10), force);
+    add(label("Centroid", theme.ink, theme.stage, left, 10, 4), centroid);
+    add(label("Centre of force", theme.force, theme.stage, -left, 10, 4), force);
   }
 
   #drawNumbers(theme) {

@@ -42,7 +42,7 @@ function entry(position) {
 }
 
 function openStage() {
-  const options = { antialias: true, preserveDrawingBuffer: true, powerPreference: "low-power" };
+  const options = { antialias: true, powerPreference: "low-power" };
   const ratio = pixelRatio();
   canvas.width = canvas.clientWidth * ratio;
   canvas.height = canvas.clientHeight * ratio;
@@ -55,6 +55,7 @@ function openStage() {
   }
   return new Stage(canvas, context, scene, {
     told: (found, where) => showTooltip(find("tooltip"), scene, found, where),
+    arranged: (stacked) => find("captions").classList.toggle("stacked", stacked),
   });
 }
 
@@ -72,11 +73,11 @@ function say(text) {
 
 /** Draw the shown designs; the words can follow. */
 function draw() {
+  document.querySelector("main").classList.toggle("comparing", compared !== null);
   const grasps = entries().flatMap(({ grasp }) => (grasp ? [grasp] : []));
   stage?.show(grasps);
   const names = grasps.length > 1 ? entries().map(({ design }) => design.name) : [];
   find("captions").replaceChildren(...names.map((name) => make("span", {}, name)));
-  find("captions").classList.toggle("stacked", Boolean(stage?.stacked));
 }
 
 function tell() {
@@ -87,7 +88,6 @@ function tell() {
   });
   find("compare").setAttribute("aria-pressed", String(compared !== null));
   find("comparison").hidden = compared === null;
-  document.querySelector("main").classList.toggle("comparing", compared !== null);
   find("with").value = compared === null ? "" : String(compared);
   document.title = `${designs[shown].name} – ${scene.title}`;
 }
@@ -203,8 +203,7 @@ function wireControls() {
     else if (event.key === "0") stage?.fit();
   });
   addEventListener("hashchange", () => show(...asked()));
-  addEventListener("beforeprint", () => stage?.print(true));
-  addEventListener("afterprint", () => stage?.print(false));
+  addEventListener("beforeprint", () => stage?.print(find("paper")));
   onThemeChange(() => stage?.paint());
 }
 

@@ -36,10 +36,10 @@ function widthOf(text) {
 }
 
 /** Text with a halo, so many pixels left (side -1) or right (1) of its point. */
-export function label(text, colour, halo, side, gap) {
+export function label(text, colour, halo, side, gap, order = 3) {
   const [width, height] = [widthOf(text) + 10, 22];
   const left = side < 0 ? -gap - width : gap;
-  return drawn(width, height, [left, -height / 2], 3, (pen) => {
+  return drawn(width, height, [left, -height / 2], order, (pen) => {
     pen.font = FONT;
     pen.textBaseline = "middle";
     pen.lineJoin = "round";

@@ -58,17 +58,24 @@ function statusLine({ design, grasp }, several) {
   return make("p", { class: `status ${state(grasp)}` }, name, status(grasp));
 }
 
+const AGREE = "The workbook and this page agree.";
+
 function agreementLine({ design, grasp }, several) {
   const name = several ? `${design.name}: ` : "";
   if (!design.card) {
     return make("p", { class: "agreement" }, `${name}Not in the workbook; this page worked it out.`);
   }
   const differing = differences(grasp, design.card);
-  if (!differing.length) {
-    return make("p", { class: "agreement" }, `${name}The workbook and this page agree.`);
-  }
+  if (!differing.length) return make("p", { class: "agreement" }, `${name}${AGREE}`);
   const text = `${name}The workbook and this page differ: ${differing.join("; ")}.`;
   return make("p", { class: "agreement differs", role: "alert" }, text);
+}
+
+/** One line for each design, or one for both where there is nothing to say of either. */
+function agreementLines(judged, several) {
+  const agree = ({ design, grasp }) => design.card && !differences(grasp, design.card).length;
+  if (judged.length && judged.every(agree)) return [make("p", { class: "agreement" }, AGREE)];
+  return judged.map((entry) => agreementLine(entry, several));
 }
 
 function billTable(scene, grasp) {
@@ -163,7 +170,7 @@ export function fillPanel(box, scene, entries, { copied, lit }) {
   box.replaceChildren(
     make("div", { class: "lines" }, [
       ...entries.map((entry) => (entry.grasp ? statusLine : faultyLine)(entry, several)),
-      ...judged.map((entry) => agreementLine(entry, several)),
+      ...agreementLines(judged, several),
     ]),
   );
   if (judged.length) box.append(cardTable(scene, judged));

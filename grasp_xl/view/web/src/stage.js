@@ -11,6 +11,10 @@ import { Scene, WebGLRenderer } from "./three.js";
 const GLIDE_MS = 220;
 /** Pixels between the two panes. */
 const GAP = 2;
+/** Pixels below which nothing is drawn. */
+const LEAST = 16;
+/** Pixels of a printed picture for one of the page. */
+const PAPER_PIXELS = 3;
 
 export const LAYERS = ["part", "elements", "frame", "places", "polygons", "centres", "numbers"];
 
@@ -20,16 +24,22 @@ const still = matchMedia("(prefers-reduced-motion: reduce)");
 export const pixelRatio = () => Math.min(devicePixelRatio, 2);
 
 export class Stage {
-  /** `told(found, pane)` follows the pointer: what is under it, or null. */
-  constructor(canvas, context, scene, { told }) {
+  /**
+   * `told(found, where)` follows the pointer: what is under it, or null; `arranged(stacked)` says
+   * whether two panes stand one above the other.
+   */
+  constructor(canvas, context, scene, { told, arranged }) {
     this.canvas = canvas;
     this.scene = scene;
     this.told = told;
+    this.arranged = arranged;
     this.eye = new Eye();
     this.grippers = [];
     this.hidden = new Set();
     this.waiting = false;
-    this.printing = false;
+    this.stacked = false;
+    /** Whether the eye still sees what the last fit showed. */
+    this.fits = true;
     this.gliding = 0;
     this.space = new Scene();
     this.around = surroundings(scene);
@@ -103,13 +113,22 @@ export class Stage {
     const { eye } = this;
     const from = { azimuth: eye.azimuth, tilt: eye.tilt, span: eye.span, target: eye.target.clone() };
     const corners = this.around.corners(Math.max(...this.grippers.map((each) => each.top)));
-    const [pane] = this.#panes();
     Object.assign(eye, { azimuth, tilt });
+    this.#arrange(corners);
+    const [pane] = this.#panes();
+    this.fits = true;
     eye.fit(corners, pane.width / pane.height);
     eye.middle.copy(corners[0]).add(corners[7]).multiplyScalar(0.5);
     eye.reach = corners[0].distanceTo(corners[7]);
     if (glide && !still.matches) this.#glide(from);
     this.draw();
+  }
+
+  /** Put two panes beside each other or one above the other, where the part gets larger. */
+  #arrange(corners) {
+    const scale = ([{ width, height }]) => height / this.eye.fitted(corners, width / height).span;
+    this.stacked = scale(this.#panes(true)) > scale(this.#panes(false));
+    this.arranged(this.stacked);
   }
 
   #glide(from) {
@@ -143,6 +162,7 @@ export class Stage {
   }
 
   #moved() {
+    this.fits = false;
     cancelAnimationFrame(this.gliding);
     this.gliding = 0;
     this.told(null);
@@ -159,31 +179,27 @@ export class Stage {
   }
 
   #resize() {
-    if (this.printing) return;
     const { clientWidth, clientHeight } = this.canvas.parentElement;
-    if (!clientWidth || !clientHeight) return;
+    if (clientWidth < LEAST || clientHeight < LEAST || matchMedia("print").matches) return;
     this.renderer.setPixelRatio(pixelRatio());
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.width = clientWidth;
     this.height = clientHeight;
-    if (this.grippers.length) this.render();
+    if (!this.grippers.length) return;
+    if (this.fits) this.fit({ glide: false });
+    this.render();
   }
 
   /** Boxes of the panes in pixels of the page, from the upper left corner of the canvas. */
-  #panes() {
+  #panes(stacked = this.stacked) {
     const [wide, high] = [this.width, this.height];
     if (this.grippers.length < 2) return [{ left: 0, top: 0, width: wide, height: high }];
-    if (wide < high) {
+    if (stacked) {
       const height = (high - GAP) / 2;
       return [0, height + GAP].map((top) => ({ left: 0, top, width: wide, height }));
     }
     const width = (wide - GAP) / 2;
     return [0, width + GAP].map((left) => ({ left, top: 0, width, height: high }));
-  }
-
-  /** Whether the panes stand one above the other. */
-  get stacked() {
-    return this.width < this.height;
   }
 
   #paneAt(x, y) {
@@ -264,11 +280,18 @@ export class Stage {
     this.draw();
   }
 
-  /** Draw in the colours of paper, and let the page scale the picture, until print ends. */
-  print(on) {
-    this.printing = on;
+  /** Copy the picture as it is seen, in the colours of paper, to a canvas that can be printed. */
+  print(paper) {
+    const { classList } = document.documentElement;
+    classList.add("paper");
+    this.renderer.setPixelRatio(PAPER_PIXELS);
     this.paint();
     this.render();
-    if (!on) this.#resize();
+    [paper.width, paper.height] = [this.canvas.width, this.canvas.height];
+    paper.getContext("2d").drawImage(this.canvas, 0, 0);
+    classList.remove("paper");
+    this.renderer.setPixelRatio(pixelRatio());
+    this.paint();
+    this.render();
   }
 }
