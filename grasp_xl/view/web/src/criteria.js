@@ -34,7 +34,9 @@ export function standing(scene, genes) {
 /** Force-weighted mean of the places, eq. 2. */
 export function centreOfForce(elements) {
   const whole = sum(elements.map((each) => each.force));
-  return [0, 1, 2].map((axis) => sum(elements.map((each) => each.force * each.place[axis])) / whole);
+  return [0, 1, 2].map(
+    (axis) => sum(elements.map((each) => each.force * each.place[axis])) / whole,
+  );
 }
 
 /** Distance of the centre of force to the centroid, eq. 3; the plan arm leaves its height out. */

@@ -89,7 +89,10 @@ export function readGenes(scene, text) {
   const kinds = scene.kinds.length;
   if (rows.length !== kinds) {
     const expected = `two are expected: ${scene.kinds.map((k) => `${k.label.toLowerCase()}s`).join(", then ")}`;
-    const found = rows.length === 0 ? "There are no genes" : `There ${rows.length === 1 ? "is one row" : `are ${rows.length} rows`} of genes`;
+    const found =
+      rows.length === 0
+        ? "There are no genes"
+        : `There ${rows.length === 1 ? "is one row" : `are ${rows.length} rows`} of genes`;
     return { fault: `${found} where ${expected}.` };
   }
   const read = rows.map((row, number) => readRow(scene, row, number));

@@ -249,9 +249,13 @@ window.graspView = Object.freeze({
   },
   genes: () => genesText(designs[shown].genes),
   select,
-  /** How many pixels of the picture are not of its most frequent colour, and of how many. */
+  /** Where an element of the shown design is in the picture. */
+  spot: (number) => {
+    const { place, kind } = entry(shown).grasp.elements[number];
+    return stage.spot([place[0], place[1], place[2] + scene.kinds[kind].height_mm / 4]);
+  },
+  /** How many pixels of the picture are not of its most frequent colour, of how many, and that. */
   pixels: () => {
-    if (!stage) return { drawn: 0, all: 0 };
     stage.render();
     const gl = stage.renderer.getContext();
     const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
@@ -259,6 +263,8 @@ window.graspView = Object.freeze({
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(seen.buffer));
     const counts = new Map();
     for (const colour of seen) counts.set(colour, (counts.get(colour) ?? 0) + 1);
-    return { drawn: seen.length - Math.max(...counts.values()), all: seen.length };
+    const [ground, most] = [...counts].reduce((a, b) => (b[1] > a[1] ? b : a));
+    const channels = [ground & 255, (ground >> 8) & 255, (ground >> 16) & 255];
+    return { drawn: seen.length - most, all: seen.length, ground: channels };
   },
 });

@@ -8,7 +8,10 @@ const FONT = "600 13px system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation
 const FINE = 2;
 
 const SQUARE = new BufferGeometry();
-SQUARE.setAttribute("position", new Float32BufferAttribute([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0], 3));
+SQUARE.setAttribute(
+  "position",
+  new Float32BufferAttribute([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0], 3),
+);
 SQUARE.setIndex([0, 1, 2, 0, 2, 3]);
 
 /** A picture of a size in pixels whose lower left corner is so far from what it marks. */

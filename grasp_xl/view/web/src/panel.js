@@ -33,7 +33,13 @@ function cardLine(row, scene, entries) {
     values[0].colSpan = 2;
     return make("tr", {}, name, values);
   }
-  return make("tr", {}, name, cell(row.goal?.(scene.rules) ?? "", { class: "number goal" }), values);
+  return make(
+    "tr",
+    {},
+    name,
+    cell(row.goal?.(scene.rules) ?? "", { class: "number goal" }),
+    values,
+  );
 }
 
 function cardTable(scene, entries) {
@@ -63,7 +69,11 @@ const AGREE = "The workbook and this page agree.";
 function agreementLine({ design, grasp }, several) {
   const name = several ? `${design.name}: ` : "";
   if (!design.card) {
-    return make("p", { class: "agreement" }, `${name}Not in the workbook; this page worked it out.`);
+    return make(
+      "p",
+      { class: "agreement" },
+      `${name}Not in the workbook; this page worked it out.`,
+    );
   }
   const differing = differences(grasp, design.card);
   if (!differing.length) return make("p", { class: "agreement" }, `${name}${AGREE}`);

@@ -1,7 +1,15 @@
 // How surfaces, dots and lines are drawn: programs so small that they compile in no time, also
 // where a processor stands in for the graphics card.
 
-import { Color, DoubleSide, FrontSide, GLSL3, RawShaderMaterial, Vector2, Vector4 } from "./three.js";
+import {
+  Color,
+  DoubleSide,
+  FrontSide,
+  GLSL3,
+  RawShaderMaterial,
+  Vector2,
+  Vector4,
+} from "./three.js";
 
 const HEAD = "precision highp float; uniform mat4 modelViewMatrix, projectionMatrix;";
 

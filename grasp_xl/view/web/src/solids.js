@@ -1,14 +1,7 @@
 // Simple solids of elements and frame, as meshes.
 
 import { solid } from "./shading.js";
-import {
-  BoxGeometry,
-  CylinderGeometry,
-  LatheGeometry,
-  Mesh,
-  Vector2,
-  Vector3,
-} from "./three.js";
+import { BoxGeometry, CylinderGeometry, LatheGeometry, Mesh, Vector2, Vector3 } from "./three.js";
 
 const SECTIONS = 40;
 const UP = new Vector3(0, 1, 0);

@@ -2,7 +2,7 @@
 
 import { Eye, VIEWS } from "./camera.js";
 import { Gripper } from "./gripper.js";
-import { elementAt, placeAt } from "./pick.js";
+import { elementAt, onScreen, placeAt } from "./pick.js";
 import { steer } from "./steering.js";
 import { surroundings } from "./surroundings.js";
 import { theme } from "./theme.js";
@@ -73,8 +73,7 @@ export class Stage {
     this.#applyLayers();
     if (!panes && grasps.length) {
       this.fit({ glide: false });
-    }
-    else if (panes !== grasps.length) this.fit();
+    } else if (panes !== grasps.length) this.fit();
     this.told(null);
     this.draw();
   }
@@ -111,7 +110,12 @@ export class Stage {
   /** Show everything, from the same side or from another. */
   fit({ azimuth = this.eye.azimuth, tilt = this.eye.tilt, glide = true } = {}) {
     const { eye } = this;
-    const from = { azimuth: eye.azimuth, tilt: eye.tilt, span: eye.span, target: eye.target.clone() };
+    const from = {
+      azimuth: eye.azimuth,
+      tilt: eye.tilt,
+      span: eye.span,
+      target: eye.target.clone(),
+    };
     const corners = this.around.corners(Math.max(...this.grippers.map((each) => each.top)));
     Object.assign(eye, { azimuth, tilt });
     this.#arrange(corners);
@@ -153,6 +157,7 @@ export class Stage {
   /** Switch between a perspective and a parallel picture of the same size. */
   set perspective(on) {
     this.eye.perspective = on;
+    if (this.fits) this.fit({ glide: false });
     this.draw();
   }
 
@@ -204,7 +209,7 @@ export class Stage {
 
   #paneAt(x, y) {
     const boxes = this.#panes();
-    const second = boxes[1] && (x >= boxes[1].left && y >= boxes[1].top);
+    const second = boxes[1] && x >= boxes[1].left && y >= boxes[1].top;
     const number = second ? 1 : 0;
     return { number, box: boxes[number] };
   }
@@ -265,6 +270,12 @@ export class Stage {
         ? null
         : placeAt(this.scene, camera, right, up, box.width, box.height);
     this.#tell(element ?? place, { x, y, number, stands: Boolean(element) });
+  }
+
+  /** Where a place is in the picture: pixels from the upper left corner of the canvas. */
+  spot(place) {
+    const [{ width, height }] = this.#panes();
+    return onScreen(this.eye.camera(width / height), place, width, height);
   }
 
   #tell(found, where) {

@@ -34,7 +34,11 @@ export function support(scene, grasp) {
     return cross(a, b, centroid) >= -FLAT * grasp.longest_mm * size;
   });
   const weights = scene.kinds.map((kind, number) =>
-    grasp.counts[number] ? (kind.weight_g === null ? null : grasp.counts[number] * kind.weight_g) : 0,
+    grasp.counts[number]
+      ? kind.weight_g === null
+        ? null
+        : grasp.counts[number] * kind.weight_g
+      : 0,
   );
   return {
     hull_area_mm2: flat ? 0 : twice / 2,

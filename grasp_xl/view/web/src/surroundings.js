@@ -3,13 +3,7 @@
 import { line } from "./lines.js";
 import { partGroup } from "./part.js";
 import { dots } from "./shading.js";
-import {
-  BufferGeometry,
-  Float32BufferAttribute,
-  Group,
-  Points,
-  Vector3,
-} from "./three.js";
+import { BufferGeometry, Float32BufferAttribute, Group, Points, Vector3 } from "./three.js";
 
 /** Pixels of a place, and its opacity. */
 const DOT = 4;
@@ -19,11 +13,13 @@ const HIDDEN = 0.45;
 
 function placesGroup(scene) {
   const group = new Group();
-  const clouds = scene.kinds.filter((kind) => kind.total).map((kind) => {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new Float32BufferAttribute(kind.places, 3));
-    return new Points(geometry, dots(kind.colour, FAINT));
-  });
+  const clouds = scene.kinds
+    .filter((kind) => kind.total)
+    .map((kind) => {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", new Float32BufferAttribute(kind.places, 3));
+      return new Points(geometry, dots(kind.colour, FAINT));
+    });
   if (clouds.length) group.add(...clouds);
   return {
     group,

@@ -23,7 +23,8 @@ export function number(value, digits = 0) {
 }
 
 /** A point or an offset, in mm. */
-export const point = (values, digits = 1) => values.map((value) => number(value, digits)).join(", ");
+export const point = (values, digits = 1) =>
+  values.map((value) => number(value, digits)).join(", ");
 
 /** What the card says of its grasp in one line; the words are the workbook's. */
 export function status(grasp) {
