@@ -1,0 +1,43 @@
+// What is under the pointer: an element, or a place where one could stand.
+
+import { Raycaster, Vector2, Vector3 } from "./three.js";
+
+/** Pixels from a place within which it is meant. */
+const NEAR = 9;
+
+const ray = new Raycaster();
+
+/** The element of a gripper under a point of a picture, x and y from -1 to 1; null for none. */
+export function elementAt(camera, gripper, x, y) {
+  ray.setFromCamera(new Vector2(x, y), camera);
+  const [hit] = ray.intersectObjects(gripper.elements, true);
+  return hit ? hit.object.parent.userData.element : null;
+}
+
+/** The place nearest to a point of a picture of some size in pixels; null for none near it. */
+export function placeAt(scene, camera, x, y, width, height) {
+  const m = camera.projectionMatrix.clone().multiply(camera.matrixWorldInverse).elements;
+  let best = null;
+  let least = NEAR;
+  scene.kinds.forEach((kind, number) => {
+    const { places } = kind;
+    for (let i = 0; i < places.length; i += 3) {
+      const [a, b, c] = [places[i], places[i + 1], places[i + 2]];
+      const w = m[3] * a + m[7] * b + m[11] * c + m[15];
+      const right = (m[0] * a + m[4] * b + m[8] * c + m[12]) / w - x;
+      const up = (m[1] * a + m[5] * b + m[9] * c + m[13]) / w - y;
+      const away = Math.hypot((right * width) / 2, (up * height) / 2);
+      if (away < least) {
+        least = away;
+        best = { kind: number, index: i / 3 + 1, place: [a, b, c], force: kind.force_n };
+      }
+    }
+  });
+  return best;
+}
+
+/** Where a point in space is in a picture: x right and y down, in pixels. */
+export function onScreen(camera, place, width, height) {
+  const point = new Vector3(...place).project(camera);
+  return { x: ((point.x + 1) / 2) * width, y: ((1 - point.y) / 2) * height };
+}
