@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import html
 import json
 import re
@@ -27,7 +28,7 @@ from grasp_xl.view.solids import Block, Solid, Turned
 HERE = Path(__file__).parent
 TEMPLATE, STYLE, SCRIPT = HERE / "page.html", HERE / "page.css", HERE / "viewer.js"
 
-MARK = re.compile(r"\{\{([A-Z]+)\}\}")
+HOLE = re.compile(r"\{\{([A-Z]+)\}\}")
 """Where a part of the page goes into its template."""
 
 Json = dict[str, Any]
@@ -35,15 +36,34 @@ Json = dict[str, Any]
 
 def page_of(scene: Scene) -> bytes:
     """Return the page."""
-    data = json.dumps(scene_data(scene), allow_nan=False, separators=(",", ":"))
+    return assembled(scene_data(scene))
+
+
+def assembled(data: Json) -> bytes:
+    """Put what the page is given into its template."""
+    style, script = STYLE.read_text(encoding="utf-8"), SCRIPT.read_text(encoding="utf-8")
+    told = json.dumps(data, allow_nan=False, separators=(",", ":"))
     parts = {
-        "TITLE": html.escape(scene.title),
-        "SCENE": data.replace("<", "\\u003c"),
-        "STYLE": STYLE.read_text(encoding="utf-8"),
-        "SCRIPT": SCRIPT.read_text(encoding="utf-8"),
+        "POLICY": _policy(style, script),
+        "TITLE": html.escape(data["title"]),
+        "SCENE": told.replace("<", "\\u003c"),
+        "STYLE": style,
+        "SCRIPT": script,
     }
     page = TEMPLATE.read_text(encoding="utf-8")
-    return MARK.sub(lambda mark: parts[mark[1]], page).encode()
+    return HOLE.sub(lambda mark: parts[mark[1]], page).encode()
+
+
+def _policy(style: str, script: str) -> str:
+    """Return the content security policy that lets this style and this script in, and no more."""
+    styles, scripts = (
+        base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+        for text in (style, script)
+    )
+    return (
+        f"default-src 'none'; style-src 'sha256-{styles}'; script-src 'sha256-{scripts}'; "
+        "img-src data:; base-uri 'none'; form-action 'none'"
+    )
 
 
 def scene_data(scene: Scene) -> Json:
