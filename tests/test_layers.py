@@ -15,6 +15,7 @@ LAYERS = (
     ("chromosome", "rules", "polygon"),
     ("criteria",),
     ("grasp", "kernels"),
+    ("bill",),
     ("stability",),
     ("search",),
     ("task",),

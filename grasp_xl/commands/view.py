@@ -6,13 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from grasp_xl.bill import Line, bill_of
 from grasp_xl.commands.preparing import Active, given_grasp, prepare
 from grasp_xl.errors import Problem, UsageError
 from grasp_xl.fitment.catalogue import read_catalogue
 from grasp_xl.fitment.step_file import not_installed
 from grasp_xl.task import Parameters, Task
-from grasp_xl.view.assembly import ELEMENT_WORDS, MARK
-from grasp_xl.view.bill import HEADER, Line, bill_csv, bill_of
+from grasp_xl.view.assembly import MARK
+from grasp_xl.view.bill_file import HEADER, bill_csv
 from grasp_xl.view.designs import Design, chosen, designs_of
 from grasp_xl.view.element_model import ElementModel, element_model
 from grasp_xl.view.part_shape import part_shape
@@ -64,7 +65,7 @@ class Viewed:
     @property
     def bill(self) -> list[Line]:
         """Bill of material of the shown design."""
-        return _bill_of(self.scene)
+        return bill_of(self.scene.task.space, self.scene.grasp(self.scene.shown))
 
 
 def view_file(wish: Wish, output: Path, *, force: bool) -> Viewed:
@@ -108,20 +109,12 @@ def _writer(suffix: str) -> Callable[[Scene], bytes]:
 
         return drawing_of
     if suffix in BILL:
-        return _bill
+        return bill_csv
     try:
         from grasp_xl.view.step_assembly import step_of
     except ImportError as error:
         raise not_installed(error, "write the design as .glb or .dxf") from error
     return step_of
-
-
-def _bill_of(scene: Scene) -> list[Line]:
-    return bill_of(scene.task.space, scene.grasp(scene.shown), ELEMENT_WORDS)
-
-
-def _bill(scene: Scene) -> bytes:
-    return bill_csv(_bill_of(scene))
 
 
 def scene_of(wish: Wish) -> Viewed:

@@ -59,7 +59,9 @@ def trimmed(area: Polygon | MultiPolygon, caps: Caps) -> Polygon | MultiPolygon:
     own = along(area, caps)
     if not len(own):
         return area
-    return shapely.difference(area, shapely.union_all(own, grid_size=GRID_MM), grid_size=GRID_MM)
+    whole = shapely.union_all(own, grid_size=GRID_MM)
+    left = shapely.difference(area, whole, grid_size=GRID_MM)
+    return left.simplify(GRID_MM)  # where a chord ends, two of its caps' sides are in line
 
 
 def true_area(area: Polygon | MultiPolygon, caps: Caps) -> tuple[float, FloatArray]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from grasp_xl.bill import ELEMENT_WORDS
 from grasp_xl.space import FloatArray, frozen
 from grasp_xl.view.scene import Scene
 from grasp_xl.view.solids import Bar, Solid
@@ -15,7 +16,6 @@ MARK = "grasp_xl view"
 PART_COLOUR = "#B4BBC4"
 ELEMENT_COLOURS = (CYAN, MAGENTA)
 MAIN_COLOUR, BRANCH_COLOUR, POST_COLOUR = RED, "#E0707F", "#8A929C"
-ELEMENT_WORDS = ("Suction cup", "Magnet")
 PART, ELEMENTS, FRAME = "Part", ("Suction cups", "Magnets"), "Frame"
 """Groups of an assembly."""
 

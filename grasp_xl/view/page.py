@@ -13,11 +13,12 @@ from typing import Any
 import numpy as np
 import shapely
 
+from grasp_xl.bill import ELEMENT_WORDS
 from grasp_xl.fitment.part import rings_of
 from grasp_xl.grasp import Grasp
 from grasp_xl.rules import TERMS
 from grasp_xl.space import FloatArray
-from grasp_xl.view.assembly import ELEMENT_COLOURS, ELEMENT_WORDS
+from grasp_xl.view.assembly import ELEMENT_COLOURS
 from grasp_xl.view.designs import Design
 from grasp_xl.view.element_model import ElementModel
 from grasp_xl.view.meshes import indexed, triangles_of

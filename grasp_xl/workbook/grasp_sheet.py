@@ -18,6 +18,8 @@ import numpy as np
 from grasp_xl.grasp import Grasp
 from grasp_xl.space import FloatArray, OptionSpace
 from grasp_xl.workbook import layout
+from grasp_xl.workbook.bill_table import ROWS as BILL_ROWS
+from grasp_xl.workbook.bill_table import write_bill
 from grasp_xl.workbook.calc_block import CalcBlock
 from grasp_xl.workbook.calc_edges import EDGE_COLUMN, PART_POLYGON_COLUMN, closed_polygon
 from grasp_xl.workbook.calc_values import truss_ends
@@ -163,7 +165,8 @@ def write_grasp(
 ) -> None:
     """Write one picture a grasp, side by side, and the points that each is drawn from.
 
-    Below them stands the rendering, if there is one: it does not follow the cells.
+    The first is that of the What-if card.  Below them stands its bill of material, and then the
+    rendering, if there is one: that does not follow the cells.
     """
     pen.write(0, 0, "GRASP: plan view to scale (mm), live with the What-if card", Style.TITLE)
     pen.write(0, GRASP_DATA_COLUMN, "Points that the pictures are drawn from", Style.NOTE)
@@ -191,9 +194,13 @@ def write_grasp(
         _to_scale(chart, frame, picture.title)
         pen.insert_chart(2, number * PICTURE_COLUMNS, chart)
     pen.hide_errors(Area(GRASP, FIRST_POINT, GRASP_DATA_COLUMN, CORNERS + 1, column))
-    pages = [Area(GRASP, 0, 0, frame.rows, len(pictures) * PICTURE_COLUMNS)]
+    what_if = pictures[0]
+    fault = what_if.block.summary("fault").reference
+    write_bill(pen, frame.rows, space, what_if.grasp, fault)
+    rows = frame.rows + BILL_ROWS
+    pages = [Area(GRASP, 0, 0, rows, len(pictures) * PICTURE_COLUMNS)]
     if rendering:
-        pages.append(_write_rendering(pen, rendering, frame.rows + 1))
+        pages.append(_write_rendering(pen, rendering, rows + 1))
     pen.fix_row_heights()
     pen.print_pages(pictures=pages)
 
