@@ -94,7 +94,7 @@ def run_browser(profile: Path) -> Iterator[Browser]:
         lack(f"{missing[0]} is not here: {INSTALL}")
     options = webdriver.ChromeOptions()
     options.binary_location = programs["chromium"]
-    for option in (*OPTIONS, f"--user-data-dir={profile}", "--window-size=1280,800"):
+    for option in (*OPTIONS, f"--user-data-dir={profile}", "--window-size=1200,700"):
         options.add_argument(option)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     service = webdriver.ChromeService(programs["chromedriver"])

@@ -17,7 +17,7 @@ from grasp_xl.chromosome import Chromosome, from_active
 from grasp_xl.grasp import evaluate
 from grasp_xl.rules import TERMS
 from grasp_xl.task import Task, settle
-from grasp_xl.workbook.book import read_book
+from grasp_xl.workbook.book import Book, read_book
 
 VIEW = Path(grasp_xl.__file__).parent / "view"
 WORKBOOKS = Path(__file__).parent.parent / "workbooks"
@@ -35,16 +35,34 @@ def packed(values: Any, form: str) -> str:
     return base64.b64encode(np.ascontiguousarray(values, dtype=form).tobytes()).decode()
 
 
+Named = tuple[str, str, Chromosome]
+"""Group, name and genes of a design."""
+
+
+def bracket_book() -> Book:
+    """Return what the bracket's workbook says."""
+    return read_book(WORKBOOKS / "bracket.xlsx")
+
+
 def bracket_scene() -> Scene:
-    """Return the bracket with its benchmark, two better designs, and one that meets nothing."""
-    book = read_book(WORKBOOKS / "bracket.xlsx")
+    """Return the bracket with its benchmark, two other designs, and one that meets nothing."""
+    book = bracket_book()
     task = settle(book.space, book.parameters, book.user_chromosome)
-    designs = {
-        ("Results", "Best of the run"): from_active(task.space, [[15], [39, 50, 66]]),
-        ("Results", "Fewer magnets"): from_active(task.space, [[5, 22, 12], [16, 92]]),
-        ("Benchmark", "User-defined (benchmark)"): task.benchmark.chromosome,
-        ("Valid Designs", "No. 1, generation 17"): from_active(task.space, [[1, 2], [1]]),
-    }
+    return scene_of(
+        task,
+        faces_of(book),
+        [
+            ("Results", "Best of the run", from_active(task.space, [[15], [39, 50, 66]])),
+            ("Results", "Fewer magnets", from_active(task.space, [[5, 22, 12], [16, 92]])),
+            ("Benchmark", "User-defined (benchmark)", task.benchmark.chromosome),
+            ("Valid Designs", "No. 1, generation 17", from_active(task.space, [[1, 2], [1]])),
+        ],
+    )
+
+
+def scene_of(task: Task, faces: list[dict[str, Any]], designs: list[Named]) -> Scene:
+    """Return the scene of a task and some designs."""
+    rules = task.rules
     return {
         "title": "bracket-result.xlsx",
         "part": {
@@ -53,27 +71,30 @@ def bracket_scene() -> Scene:
             "weight_n": task.space.part.weight_n,
             "centroid_mm": task.space.part.centroid_mm.tolist(),
             "mesh": None,
-            "faces": faces_of(book),
+            "faces": faces,
         },
         "part_polygon_mm": task.space.approximation_polygon_mm.tolist(),
         "ideal_polygon_mm": task.space.ideal_polygon_mm.tolist(),
         "kinds": [kind_of(task, number) for number in range(2)],
         "frame": {"main_radius_mm": 9.2, "branch_radius_mm": 5.5, "rise_mm": 23},
         "rules": {
-            "fos": task.rules.requirements.fos,
-            "clearance_mm": task.rules.requirements.clearance_mm,
-            "density_ratio": task.rules.requirements.density_ratio,
-            "moment_arm": task.rules.requirements.moment_arm,
-            "goals": dict(zip(TERMS, task.rules.goals.base, strict=True)),
-            "criterion": task.rules.criterion.name,
+            "fos": rules.requirements.fos,
+            "clearance_mm": rules.requirements.clearance_mm,
+            "density_ratio": rules.requirements.density_ratio,
+            "moment_arm": rules.requirements.moment_arm,
+            "goals": {
+                term: None if term in rules.goals.dropped else goal
+                for term, goal in zip(TERMS, rules.goals.base, strict=True)
+            },
+            "criterion": rules.criterion.name,
         },
         "gene_slots": task.space.gene_slots,
-        "designs": [design_of(task, *names, genes) for names, genes in designs.items()],
+        "designs": [design_of(task, *named) for named in designs],
         "shown": 0,
     }
 
 
-def faces_of(book: Any) -> list[dict[str, Any]]:
+def faces_of(book: Book) -> list[dict[str, Any]]:
     """Return the level faces of the sheet Part."""
     return [
         {"z_mm": face.height_mm, "rings": [ring.tolist() for ring in face.rings]}

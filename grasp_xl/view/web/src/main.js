@@ -123,25 +123,28 @@ async function copied(field, design) {
   setTimeout(() => (button.textContent = "Copy"), 1500);
 }
 
-/** Add pasted genes as a design and return its position, or say what is wrong with them. */
+/** Position of genes that the page did not come with; they become a design at the end. */
+function positionOf(genes) {
+  const same = designs.findIndex(
+    (design, position) => position >= given && genesText(design.genes) === genesText(genes),
+  );
+  if (same >= 0) return same;
+  const position = designs.length;
+  const name = position > given ? `${PASTED} ${position - given + 1}` : PASTED;
+  designs.push({ group: PASTED, name, note: "", genes, card: null });
+  list.add(designs[position]);
+  list.judge(position, entry(position).grasp);
+  addOption(position);
+  return position;
+}
+
+/** Show pasted genes, or say what is wrong with them. */
 function paste(text) {
   const { genes, fault } = readGenes(scene, text);
   find("fault").textContent = fault ?? "";
   find("fault").hidden = !fault;
   find("pasted").setAttribute("aria-invalid", String(Boolean(fault)));
-  if (fault) return null;
-  const same = designs.findIndex(
-    (design, position) => position >= given && genesText(design.genes) === genesText(genes),
-  );
-  if (same >= 0) return same;
-  const known = designs.length - given;
-  const name = known ? `${PASTED} ${known + 1}` : PASTED;
-  designs.push({ group: PASTED, name, note: "", genes, card: null });
-  const position = designs.length - 1;
-  list.add(designs[position]);
-  list.judge(position, entry(position).grasp);
-  addOption(position);
-  return position;
+  if (!fault) select(positionOf(genes));
 }
 
 function addOption(position) {
@@ -160,8 +163,9 @@ function asked() {
   const said = readAddress();
   const position = (each) => {
     if (!each) return null;
-    if (each.text !== undefined) return paste(each.text);
-    return each.number < given ? each.number : null;
+    if (each.text === undefined) return each.number < given ? each.number : null;
+    const { genes } = readGenes(scene, each.text);
+    return genes ? positionOf(genes) : null;
   };
   const first = position(said.shown) ?? Math.min(Math.max(scene.shown, 0), given - 1);
   const second = position(said.compared);
@@ -192,8 +196,7 @@ function wireControls() {
   find("swap").addEventListener("click", () => show(compared, shown));
   find("paste").addEventListener("submit", (event) => {
     event.preventDefault();
-    const position = paste(find("pasted").value);
-    if (position !== null) select(position);
+    paste(find("pasted").value);
   });
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;

@@ -99,7 +99,8 @@ export function dots(colour, opacity) {
 /** Lines of a width in pixels, each an instance of a strip from `start` to `end`. */
 export function wide(width, options = {}) {
   return material(
-    { side: DoubleSide, ...options },
+    // always blended, so that faint lines need no program of their own
+    { side: DoubleSide, ...options, transparent: true },
     `
     uniform vec2 picture;
     uniform float width, ratio;

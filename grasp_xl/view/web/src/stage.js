@@ -2,7 +2,7 @@
 
 import { Eye, VIEWS } from "./camera.js";
 import { Gripper } from "./gripper.js";
-import { elementAt, onScreen, placeAt } from "./pick.js";
+import { elementAt, onScreen, placesAt } from "./pick.js";
 import { steer } from "./steering.js";
 import { surroundings } from "./surroundings.js";
 import { theme } from "./theme.js";
@@ -25,8 +25,8 @@ export const pixelRatio = () => Math.min(devicePixelRatio, 2);
 
 export class Stage {
   /**
-   * `told(found, where)` follows the pointer: what is under it, or null; `arranged(stacked)` says
-   * whether two panes stand one above the other.
+   * `told(found, where)` follows the pointer: places under it, and where it is; `arranged(stacked)`
+   * says whether two panes stand one above the other.
    */
   constructor(canvas, context, scene, { told, arranged }) {
     this.canvas = canvas;
@@ -74,7 +74,7 @@ export class Stage {
     if (!panes && grasps.length) {
       this.fit({ glide: false });
     } else if (panes !== grasps.length) this.fit();
-    this.told(null);
+    this.told([]);
     this.draw();
   }
 
@@ -170,7 +170,7 @@ export class Stage {
     this.fits = false;
     cancelAnimationFrame(this.gliding);
     this.gliding = 0;
-    this.told(null);
+    this.told([]);
     this.draw();
   }
 
@@ -242,7 +242,8 @@ export class Stage {
 
   #hover(x, y) {
     if (x === undefined) {
-      this.#tell(null);
+      this.light(null);
+      this.told([]);
       return;
     }
     if (this.hovering) {
@@ -265,22 +266,24 @@ export class Stage {
     const right = ((x - box.left) / box.width) * 2 - 1;
     const up = 1 - ((y - box.top) / box.height) * 2;
     const element = this.hidden.has("elements") ? null : elementAt(camera, gripper, right, up);
-    const place =
-      element || this.hidden.has("places")
-        ? null
-        : placeAt(this.scene, camera, right, up, box.width, box.height);
-    this.#tell(element ?? place, { x, y, number, stands: Boolean(element) });
+    const free = this.hidden.has("places")
+      ? []
+      : placesAt(this.scene, camera, right, up, box.width, box.height);
+    const found = element ? [element] : free;
+    const { elements } = gripper.grasp;
+    const used = (place) =>
+      elements.some((each) => each.kind === place.kind && each.index === place.index);
+    this.light(element);
+    this.told(
+      found.map((place) => ({ ...place, used: used(place) })),
+      { x, y },
+    );
   }
 
   /** Where a place is in the picture: pixels from the upper left corner of the canvas. */
   spot(place) {
     const [{ width, height }] = this.#panes();
     return onScreen(this.eye.camera(width / height), place, width, height);
-  }
-
-  #tell(found, where) {
-    this.light(where?.stands ? found : null);
-    this.told(found, where);
   }
 
   /** Light an element of a shown design, or none. */

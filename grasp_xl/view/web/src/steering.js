@@ -6,6 +6,8 @@ const KEY_PAN = 0.05;
 const KEY_ZOOM = 1.15;
 const WHEEL_ZOOM = 0.0015;
 const LINE = 30;
+/** A pinch on a touchpad comes as a slow wheel with Ctrl. */
+const PINCH = 6;
 /** Pixels that a finger may stray in a tap. */
 const TAP = 6;
 
@@ -81,7 +83,7 @@ export function steer(canvas, eye, { pane, changed, tapped, pointed }) {
       event.preventDefault();
       const { x, y } = spot(event);
       const { left, top, width, height } = pane(x, y);
-      const pixels = event.deltaY * (event.deltaMode ? LINE : 1);
+      const pixels = event.deltaY * (event.deltaMode ? LINE : 1) * (event.ctrlKey ? PINCH : 1);
       const right = (x - left - width / 2) / height;
       const up = (top + height / 2 - y) / height;
       eye.zoom(Math.exp(-pixels * WHEEL_ZOOM), right, up);

@@ -31,7 +31,7 @@ function placesGroup(scene) {
 
 /** A closed line, and its faint image where something is before it. */
 function seenThrough(points, width) {
-  const behind = { depthTest: false, depthWrite: false, transparent: true, opacity: HIDDEN };
+  const behind = { depthTest: false, depthWrite: false, opacity: HIDDEN };
   return [line(points, width, { closed: true }), line(points, width, { closed: true, ...behind })];
 }
 

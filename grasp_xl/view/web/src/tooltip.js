@@ -3,18 +3,21 @@
 import { make } from "./dom.js";
 import { number } from "./words.js";
 
-/** Show what was found beside a point of the stage; null hides the box. */
-export function showTooltip(box, scene, found, where) {
-  box.hidden = !found;
-  if (!found) return;
-  const kind = scene.kinds[found.kind];
-  const title = `${kind.label} ${number(found.index)}${where.stands ? "" : ", a free place"}`;
-  const [x, y, z] = found.place.map((value) => number(value, 2));
-  box.replaceChildren(
-    make("b", {}, title),
+function lines(scene, { kind, index, place, force, used }) {
+  const { label } = scene.kinds[kind];
+  const [x, y, z] = place.map((value) => number(value, 2));
+  return [
+    make("b", {}, `${label} ${number(index)}${used ? "" : " (free place)"}`),
     make("span", {}, `x ${x}, y ${y}, z ${z} mm`),
-    make("span", {}, `${number(found.force, 1)} N`),
-  );
+    make("span", {}, `${number(force, 1)} N`),
+  ];
+}
+
+/** Show what was found beside a point of the stage; nothing hides the box. */
+export function showTooltip(box, scene, found, where) {
+  box.hidden = !found.length;
+  if (!found.length) return;
+  box.replaceChildren(...found.flatMap((each) => lines(scene, each)));
   const stage = box.parentElement;
   const [width, height] = [box.offsetWidth, box.offsetHeight];
   const left = Math.min(where.x + 14, stage.clientWidth - width - 4);
