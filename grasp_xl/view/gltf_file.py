@@ -22,15 +22,15 @@ ROUGHNESS, METAL = 0.6, 0.1
 
 def gltf_of(scene: Scene) -> bytes:
     """Return the shown design as a ``.glb`` file, its pieces grouped under nodes with names."""
-    found = trimesh.Scene(base_frame=ROOT)
-    frame = Y_UP @ np.diag([METRES, METRES, METRES, 1.0])
+    found = trimesh.Scene()
+    found.graph.update(frame_to=ROOT, matrix=Y_UP @ np.diag([METRES, METRES, METRES, 1.0]))
     solid = scene.part.solid
     groups: set[str] = set()
 
     def add(triangles_mm: FloatArray, group: str, name: str, colour: str) -> None:
         if group not in groups:
             groups.add(group)
-            found.graph.update(frame_from=ROOT, frame_to=group, matrix=frame)
+            found.graph.update(frame_from=ROOT, frame_to=group)
         mesh = _mesh(shaded(triangles_mm), colour)
         found.add_geometry(mesh, node_name=name, geom_name=name, parent_node_name=group)
 

@@ -1,0 +1,5 @@
+// Print what Khronos's validator finds in a .glb file, as JSON.
+const { readFileSync } = require("node:fs");
+const { validateBytes } = require("gltf-validator");
+
+validateBytes(new Uint8Array(readFileSync(process.argv[2]))).then((report) => console.log(JSON.stringify(report)));
