@@ -88,7 +88,8 @@ export function readGenes(scene, text) {
   const rows = rowsOf(scene, text);
   const kinds = scene.kinds.length;
   if (rows.length !== kinds) {
-    const expected = `two are expected: ${scene.kinds.map((k) => `${k.label.toLowerCase()}s`).join(", then ")}`;
+    const names = scene.kinds.map((kind) => `${kind.label.toLowerCase()}s`);
+    const expected = `two are expected: ${names.join(", then ")}`;
     const found =
       rows.length === 0
         ? "There are no genes"

@@ -64,6 +64,8 @@ function statusLine({ design, grasp }, several) {
   return make("p", { class: `status ${state(grasp)}` }, name, status(grasp));
 }
 
+/** Most index genes whose row fits the panel. */
+const NARROW = 8;
 const AGREE = "The workbook and this page agree.";
 
 function agreementLine({ design, grasp }, several) {
@@ -158,6 +160,7 @@ function genesBox(scene, { design }, position, copied) {
   const id = `genes-${position}`;
   const text = make("textarea", { id, class: "genes", readonly: true, rows: 2, wrap: "off" });
   text.spellcheck = false;
+  text.classList.toggle("wide", scene.gene_slots > NARROW);
   text.value = genesText(design.genes);
   const button = make("button", { type: "button", "data-copy": position }, "Copy");
   button.addEventListener("click", () => copied(text, design));

@@ -20,7 +20,8 @@ const spread = ([a, b]) => (b ? Math.hypot(a.x - b.x, a.y - b.y) : 0);
 /**
  * Steer an eye by what is done to a canvas.
  * `pane(x, y)` gives { left, top, width, height } of the picture under a point of the canvas;
- * `changed()` follows a move, `tapped(x, y)` a tap, `pointed(x, y)` a hover (without numbers: none).
+ * `changed()` follows a move, `tapped(x, y)` a tap, `pointed(x, y)` a hover, without numbers its
+ * end.
  */
 export function steer(canvas, eye, { pane, changed, tapped, pointed }) {
   const down = new Map();
