@@ -16,7 +16,15 @@ import numpy as np
 import pytest
 from browser import Browser, run_browser
 from office import lack
-from view_data import VIEW, Scene, assembled, bracket_book, bracket_scene, mesh_of_size, scene_of
+from view_data import (
+    VIEW,
+    Data,
+    bracket_book,
+    bracket_data,
+    bracket_scene,
+    mesh_of_size,
+    scene_of,
+)
 
 from grasp_xl.chromosome import from_active
 from grasp_xl.grasp import evaluate
@@ -24,6 +32,7 @@ from grasp_xl.rules import Criterion
 from grasp_xl.space import OptionSpace
 from grasp_xl.stability import support
 from grasp_xl.task import settle
+from grasp_xl.view.page import assembled, scene_data
 
 WEB = VIEW / "web"
 FIRST_PICTURE_MS = 2000
@@ -41,12 +50,12 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
 
 
 @pytest.fixture(scope="module")
-def sample() -> Scene:
-    return bracket_scene()
+def sample() -> Data:
+    return bracket_data()
 
 
 @pytest.fixture
-def scene(sample: Scene) -> Scene:
+def scene(sample: Data) -> Data:
     return copy.deepcopy(sample)
 
 
@@ -54,7 +63,7 @@ def scene(sample: Scene) -> Scene:
 def show(browser: Browser, tmp_path: Path) -> Iterator[Callable[..., Browser]]:
     """Give a function that opens the page of a scene."""
 
-    def opened(scene: Scene, *, address: str = "") -> Browser:
+    def opened(scene: Data, *, address: str = "") -> Browser:
         path = tmp_path / "page.html"
         path.write_bytes(assembled(scene))
         browser.open(path, address=address)
@@ -151,7 +160,8 @@ def test_any_grasp_is_judged_alike(show, said):
     random = np.random.default_rng(7)
     task = settle(book.space, parameters, from_active(book.space, [[7], [50]]))
     grasps = [from_active(task.space, random_active(task.space, random)) for _ in range(40)]
-    scene = scene_of(task, [], [("All", str(number), each) for number, each in enumerate(grasps)])
+    designs = [("All", str(number), each) for number, each in enumerate(grasps)]
+    scene = scene_data(scene_of(book, task, designs))
     browser = show(scene)
     cards = browser.view("designs().map((_, position) => window.graspView.card(position))")
     for card, chromosome in zip(cards, grasps, strict=True):
@@ -189,6 +199,35 @@ def test_the_card_is_read_as_a_person_does(show, scene):
     assert re.search(r"104\.5 %, missed", panel)
     rows = [row.text for row in browser.driver.find_elements("css selector", ".sum")]
     assert rows == ["Sum 4 100.00 not known"]
+
+
+def test_the_frame_is_that_of_the_cad_models(show):
+    """Main truss, branches and posts run where those of the assembly do."""
+    scene = bracket_scene()
+    browser = show(scene_data(scene))
+    for number, design in enumerate(scene.designs):
+        frame, bars = scene.grip(design).frame, browser.view(f"bars({number})")
+        for ours, theirs in (
+            (frame.main, bars["main"]),
+            (frame.branches, bars["branches"]),
+            (frame.posts, bars["posts"]),
+        ):
+            assert len(ours) == len(theirs)
+            for bar, other in zip(ours, theirs, strict=True):
+                assert other["radius"] == pytest.approx(bar.radius_mm)
+                ends = (other["start"], other["end"])
+                pairs = ((bar.start_mm, bar.end_mm), (bar.end_mm, bar.start_mm))
+                assert any(np.allclose(ends, pair) for pair in pairs)
+
+
+def test_elements_that_are_not_round_are_drawn(show, scene):
+    """A block far wider than the part covers ground around it."""
+    narrow = show(scene).view("pixels()")["drawn"]
+    block = {"colour": "#00A0B0", "box_mm": [900, 60], "angle_deg": 30, "z_mm": [0, 10]}
+    scene["kinds"][0]["solids"].append(block)
+    browser = show(scene)
+    assert browser.view("pixels()")["drawn"] > 1.2 * narrow
+    assert browser.log() == []
 
 
 def test_a_disagreement_is_told(show, scene):
@@ -392,7 +431,9 @@ def test_the_views_look_along_the_axes(show, scene):
     browser = show(scene)
     browser.command("Emulation.setEmulatedMedia", features=[STILL])
     elements = browser.view("card()")["elements"]
+    quarters = [scene["kinds"][each["kind"]]["height_mm"] / 4 for each in elements]
     plan = np.array([each["place"] for each in elements])
+    plan[:, 2] += quarters  # a spot is a quarter up the element
     axes = {"1": (0, 1), "2": (0, 2), "3": (1, 2)}
     for key, (right, up) in axes.items():
         press(browser, key)

@@ -79,7 +79,7 @@ def frame_over(
         )
         for each, top in zip(elements, tops, strict=True)
     )
-    if grasp.main_truss is None:
+    if grasp.main_truss is None or grasp.longest_mm == 0:  # two at one place have no direction
         return Frame((), (), posts)
     start, end = (lifted(grasp.points_mm[row]) for row in grasp.main_truss)
     main = Bar(start, end, sizes.main_radius_mm)

@@ -6,6 +6,7 @@ import { evaluate } from "./criteria.js";
 import { readScene } from "./data.js";
 import { find, make } from "./dom.js";
 import { genesText, readGenes } from "./genes.js";
+import { frame } from "./grip.js";
 import { DesignList } from "./list.js";
 import { fillPanel } from "./panel.js";
 import { pixelRatio, Stage } from "./stage.js";
@@ -250,6 +251,7 @@ window.graspView = Object.freeze({
     const { grasp, fault } = entry(position);
     return fault ? { fault } : JSON.parse(JSON.stringify(grasp));
   },
+  bars: (position = shown) => JSON.parse(JSON.stringify(frame(scene, entry(position).grasp))),
   genes: () => genesText(designs[shown].genes),
   select,
   /** Where an element of the shown design is in the picture. */
