@@ -1,6 +1,6 @@
-"""Make the pictures of the documentation from a sample's result, as LibreOffice shows it.
+"""Make the pictures of the documentation from a sample's result, as programs show it.
 
-Run ``python docs/pictures.py``; it needs LibreOffice (soffice), poppler (pdftoppm) and Pillow.
+Run ``python docs/pictures.py``; it needs LibreOffice (soffice), poppler (pdftoppm), and Chromium.
 """
 
 from __future__ import annotations
@@ -10,6 +10,8 @@ import tempfile
 from pathlib import Path
 
 from PIL import Image, ImageChops
+
+from grasp_xl.cli.program import main as main_program
 
 DOCS = Path(__file__).parent
 RESULT = DOCS.parent / "workbooks" / "bracket-result.xlsx"
@@ -33,6 +35,18 @@ def rendered(folder: Path, title: str) -> Image.Image:
     return trimmed(page)
 
 
+def page_picture(folder: Path) -> Image.Image:
+    """Return what a browser shows of the page of ``grasp-xl view``."""
+    page, picture = folder / "page.html", folder / "view.png"
+    if main_program(["view", str(RESULT), "-o", str(page), "--quiet"]):
+        raise SystemExit(1)
+    command = ["chromium", "--headless=new", "--no-sandbox", "--use-angle=swiftshader"]
+    command += ["--enable-unsafe-swiftshader", "--window-size=1400,900", "--hide-scrollbars"]
+    command += ["--virtual-time-budget=4000", f"--screenshot={picture}", page.as_uri()]
+    subprocess.run(command, check=True, capture_output=True)
+    return Image.open(picture).convert("RGB")
+
+
 def trimmed(picture: Image.Image) -> Image.Image:
     """Return a picture without its white frame."""
     white = Image.new("RGB", picture.size, "white")
@@ -40,7 +54,7 @@ def trimmed(picture: Image.Image) -> Image.Image:
 
 
 def main() -> None:
-    """Write both pictures beside this file."""
+    """Write the pictures beside this file."""
     with tempfile.TemporaryDirectory() as folder:
         cards = rendered(Path(folder), "Child 1 (Elite)")
         right = cards.width * (CARD_WIDTH + GAP / 2) / (2 * CARD_WIDTH + GAP)
@@ -49,6 +63,7 @@ def main() -> None:
         grasp = rendered(Path(folder), "GRASP: ")
         grasp.thumbnail((1800, 1800))
         grasp.save(DOCS / "grasp.png", optimize=True)
+        page_picture(Path(folder)).save(DOCS / "view.png", optimize=True)
 
 
 if __name__ == "__main__":
