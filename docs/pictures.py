@@ -42,7 +42,7 @@ def page_picture(folder: Path) -> Image.Image:
         raise SystemExit(1)
     command = ["chromium", "--headless=new", "--no-sandbox", "--use-angle=swiftshader"]
     command += ["--enable-unsafe-swiftshader", "--window-size=1400,900", "--hide-scrollbars"]
-    command += ["--virtual-time-budget=4000", f"--screenshot={picture}", page.as_uri()]
+    command += ["--virtual-time-budget=20000", f"--screenshot={picture}", page.as_uri()]
     subprocess.run(command, check=True, capture_output=True)
     return Image.open(picture).convert("RGB")
 
