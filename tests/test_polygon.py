@@ -11,7 +11,7 @@ import shapely
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from grasp_xl.polygon import contains, is_star_shaped
+from grasp_xl.polygon import contains, is_star_shaped, look_at_polygon
 
 Point = tuple[float, float]
 
@@ -180,3 +180,11 @@ def test_a_ray_through_corners_counts_once() -> None:
     assert not contains(diamond, np.array([5.0, 2.0]))
     assert not contains(diamond, np.array([1.0, 0.0]))
     assert not contains(diamond, np.array([3.0, 4.0]))
+
+
+def test_a_centroid_on_an_edge_is_told():
+    """It would lie on the ideal polygon at any scale."""
+    square = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])
+    (told,) = look_at_polygon(square, np.array([4.0, 2.0]), "part.dxf")
+    assert told.found == "the part's centroid on an edge of the polygon"
+    assert look_at_polygon(square, np.array([2.0, 2.0]), "part.dxf") == []

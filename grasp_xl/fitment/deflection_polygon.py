@@ -7,7 +7,6 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Polygon
 
-from grasp_xl.errors import Problem
 from grasp_xl.fitment.part import CadPart
 from grasp_xl.fitment.words import AUTO, RECTANGLE
 from grasp_xl.polygon import contains, is_star_shaped
@@ -42,29 +41,6 @@ def outer_outline(part: CadPart) -> Polygon:
     """Return the largest outline of a part, without its holes."""
     pieces = [Polygon(piece.exterior) for piece in shapely.get_parts(part.plan)]
     return max(pieces, key=lambda piece: piece.area)
-
-
-def look_at_polygon(corners: FloatArray, centroid_mm: FloatArray, where: str) -> list[Problem]:
-    """Return what is wrong with a polygon for the deviation criterion (section 3.2)."""
-    if not contains(corners, centroid_mm):
-        return [
-            Problem(
-                where,
-                "a polygon beside the part's centroid",
-                "the centroid inside it",
-                "choose corners that surround the centroid",
-            )
-        ]
-    if not is_star_shaped(corners, centroid_mm):
-        return [
-            Problem(
-                where,
-                "a polygon that is not star-shaped about the part's centroid",
-                "every edge in sight of the centroid",
-                "the scaled polygon may leave the part: choose other corners, or --polygon hull",
-            )
-        ]
-    return []
 
 
 def in_sight(part: CadPart, places_mm: FloatArray) -> NDArray[np.bool_]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from grasp_xl.errors import InputError, Problem, UsageError
-from grasp_xl.fitment.deflection_polygon import approximation_polygon, in_sight, look_at_polygon
+from grasp_xl.fitment.deflection_polygon import approximation_polygon, in_sight
 from grasp_xl.fitment.element import Element, Kind
 from grasp_xl.fitment.face_choice import choose_faces
 from grasp_xl.fitment.footprint import (
@@ -22,6 +22,7 @@ from grasp_xl.fitment.footprint import (
 )
 from grasp_xl.fitment.grid import DECIMALS, grid, grid_size
 from grasp_xl.fitment.part import CadPart, Face
+from grasp_xl.polygon import look_at_polygon
 from grasp_xl.space import MAX_FOOTPRINTS, ElementKind, FloatArray, OptionSpace, Part, frozen
 
 MAX_GRID_POINTS = 4_000_000

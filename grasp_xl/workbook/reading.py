@@ -13,7 +13,7 @@ from grasp_xl.workbook.layout import Area, Field, KindLabels, Section
 from grasp_xl.workbook.package import read_package
 from grasp_xl.workbook.reading_labels import A_COORDINATE, miss, usual_place
 from grasp_xl.workbook.reading_places import check_lists, check_total, list_start, read_footprints
-from grasp_xl.workbook.reading_polygon import look_at_polygon, read_polygon
+from grasp_xl.workbook.reading_polygon import read_polygon, warn_of_polygon
 from grasp_xl.workbook.stored import StoredCells
 
 SECTIONS = (layout.PART, *(labels.section for labels in layout.KINDS))
@@ -59,7 +59,7 @@ def read_option_space(source: Source) -> OptionSpace:
     if part is None or polygon is None or None in kinds:
         raise AssertionError("finish() has raised what is missing")
     space = OptionSpace(part, tuple(kind for kind in kinds if kind), *polygon)
-    look_at_polygon(source, sheet, space)
+    warn_of_polygon(source, sheet, space)
     return space
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from grasp_xl.polygon import contains, is_star_shaped
+from grasp_xl.polygon import look_at_polygon
 from grasp_xl.space import FloatArray, OptionSpace, Part, frozen, unscaled_polygon
 from grasp_xl.workbook import layout
 from grasp_xl.workbook.cells import Grid, Source, as_number, cells_of, is_blank, normal, shown
@@ -139,25 +139,12 @@ def _check_polygon(source: Source, area: Area, polygon: FloatArray) -> None:
         source.complain(area.where, found, A_POLYGON, CHOOSE_CORNERS)
 
 
-def look_at_polygon(source: Source, sheet: str, space: OptionSpace) -> None:
+def warn_of_polygon(source: Source, sheet: str, space: OptionSpace) -> None:
     """Warn of a polygon that the deviation criterion was not made for (section 3.2)."""
     area = _ideal_area(source, sheet)
     where = area.where if area else place(sheet, 0, 0)
-    polygon, centroid = space.approximation_polygon_mm, space.part.centroid_mm
-    if not contains(polygon, centroid):
-        source.warn(
-            where,
-            "the part's centroid outside the polygon",
-            "it inside",
-            "choose the polygon's corners so that they surround the centroid",
-        )
-    elif not is_star_shaped(polygon, centroid):
-        source.warn(
-            where,
-            "a polygon that is not star-shaped about the part's centroid",
-            "every edge in sight of the centroid",
-            "the ideal polygon may leave the part; choose fewer corners (thesis, section 3.2)",
-        )
+    centroid = space.part.centroid_mm
+    source.warnings += look_at_polygon(space.approximation_polygon_mm, centroid, where)
     repeated = source.grid(sheet).find(layout.CENTROID_LABEL)
     if repeated:
         _look_at_centroid(source, repeated, centroid)
