@@ -18,8 +18,8 @@ from hypothesis import strategies as st
 from shapely import Point, box
 
 from grasp_xl.errors import InputError
+from grasp_xl.fitment.caps import SAG_MM
 from grasp_xl.fitment.dxf_file import read_dxf
-from grasp_xl.fitment.dxf_lines import SAG_MM
 from grasp_xl.fitment.part import CadPart
 from grasp_xl.fitment.part_file import GAP_MM
 from grasp_xl.fitment.words import UNITS

@@ -27,10 +27,11 @@ from solids import (
 )
 
 from grasp_xl.errors import GraspError, InputError
+from grasp_xl.fitment.caps import SAG_MM
 from grasp_xl.fitment.orientation import rotation
 from grasp_xl.fitment.part import CadPart
 from grasp_xl.fitment.part_file import APPROACH_MM
-from grasp_xl.fitment.step_file import SAG_MM, read_step
+from grasp_xl.fitment.step_file import read_step
 from grasp_xl.fitment.words import AXES
 
 

@@ -47,6 +47,9 @@ CUP, MAGNET = "cup", "magnet"
 PLACE_DECIMALS, AREA_DECIMALS = 6, 3
 """Lengths (mm), areas and volumes of the sheet ``Part`` are rounded: any program keeps them so."""
 
+SHOWN_MM = 0.05
+"""How far the outlines of the sheet ``Part``, which are only looked at, stray from those in use."""
+
 USUAL_COUNT = (1, 5)
 """Fewest and most elements of a kind (section 4.1)."""
 
@@ -201,7 +204,8 @@ def _record(request: Request, part: CadPart, fitted: Fitted) -> PartRecord:
 def _outline(
     number: int, height_mm: float | None, used_for: str, area: Polygon | MultiPolygon
 ) -> FaceOutline:
-    rings = tuple(frozen(np.round(ring, PLACE_DECIMALS) + 0.0) for ring in rings_of(area))
+    shown = rings_of(area.simplify(SHOWN_MM))
+    rings = tuple(frozen(np.round(ring, PLACE_DECIMALS) + 0.0) for ring in shown)
     return FaceOutline(number, height_mm, round(area.area, AREA_DECIMALS), used_for, rings)
 
 

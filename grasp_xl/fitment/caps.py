@@ -20,6 +20,9 @@ from grasp_xl.space import FloatArray, frozen
 Caps: TypeAlias = NDArray[np.object_]
 """``(n,)`` triangles; the first side of each is the chord."""
 
+SAG_MM = 0.005
+"""How far chords may stray from their curve: about so much of a place is lost at a curved edge."""
+
 ON_EDGE_MM = 1e-3
 """How far the middle of a chord may lie from the edge that it is a piece of."""
 

@@ -42,7 +42,7 @@ CONTROL_POINT = 16
 """Flag of a polyline's corner that only shapes it, and is not drawn."""
 
 
-SPLINE_SAG = 0.05
+SPLINE_SAG = 0.2
 """Of splines, whose tangents the library does not give, as a part of that of arcs."""
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from grasp_xl.errors import InputError, Problem, refuse
 from grasp_xl.file_content import read_content
-from grasp_xl.fitment.caps import Caps, caps_of
+from grasp_xl.fitment.caps import SAG_MM, Caps, caps_of
 from grasp_xl.fitment.dxf_curves import chords_of, is_curve
 from grasp_xl.fitment.dxf_opening import DXF, opened
 from grasp_xl.fitment.words import UNITS
@@ -27,9 +27,6 @@ if TYPE_CHECKING:
     from ezdxf.entities.insert import Insert
     from ezdxf.entities.polyline import Polyline
 
-SAG_MM = 0.05
-"""How far the chords of an arc may stray from it."""
-
 ANNOTATION = {
     *("TEXT", "MTEXT", "ATTRIB", "ATTDEF", "DIMENSION", "ARC_DIMENSION", "LARGE_RADIAL_DIMENSION"),
     *("LEADER", "MULTILEADER", "MLEADER", "TOLERANCE", "HATCH", "MPOLYGON", "POINT", "VIEWPORT"),
@@ -39,6 +36,9 @@ ANNOTATION = {
 
 UNIT_CODES = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
 """What ``$INSUNITS`` says; 0 is no unit, and nobody draws parts in the others."""
+
+FLAT_MM = 0.05
+"""How much the corners of a flat outline may differ in height."""
 
 MAX_NESTING = 32
 """Blocks in blocks."""
@@ -261,7 +261,7 @@ def _note_heights(
         if entity.dxftype() == "POLYLINE" and cast("Polyline", entity).is_3d_polyline
         for vertex in cast("Polyline", entity).vertices
     ]
-    if heights and max(heights) - min(heights) > SAG_MM:
+    if heights and max(heights) - min(heights) > FLAT_MM:
         told = f"3-D polylines with corners at z {min(heights):.6g} to {max(heights):.6g} mm"
         found.notes.append(Problem(name, told, "a flat outline", "it is seen from above"))
 

@@ -11,13 +11,16 @@ import shapely
 from shapely import LineString, Polygon, STRtree
 
 from grasp_xl.errors import Problem, refuse
-from grasp_xl.fitment.dxf_lines import SAG_MM, Line
+from grasp_xl.fitment.dxf_lines import Line
 from grasp_xl.fitment.gaps import SAME_MM, Pieces, both_ends, groups_of, in_groups, joined
 from grasp_xl.printable import quoted
 from grasp_xl.space import FloatArray
 
-TWICE_MM = 2 * SAG_MM
-"""Outlines that stray no farther from each other are one: each strays from its curve by the sag."""
+THIN_MM = 0.05
+"""Areas no wider hold nothing: lines that cross a little where they should end enclose some."""
+
+TWICE_MM = 2 * THIN_MM
+"""Outlines that stray no farther from each other are one, drawn twice."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -94,7 +97,7 @@ def outlines_of(
     """
     drawn = np.array([LineString(line.points_mm) for line in lines], dtype=object)
     pieces = joined(drawn, gap_mm)
-    thin = gap_mm + SAG_MM
+    thin = gap_mm + THIN_MM
     figures = [_figure(group, thin) for group in _that_meet(pieces)]
     places = _Places(lines, STRtree(drawn), name, gap_mm + SAME_MM)
     closed = _once([Polygon(one.areas[0].exterior) for one in figures if one.areas])

@@ -15,7 +15,7 @@ from shapely import MultiPolygon, Polygon
 
 from grasp_xl.errors import GraspError, InputError, Problem
 from grasp_xl.file_content import FileKind, read_content
-from grasp_xl.fitment.caps import NO_CAPS, Caps, caps_of, trimmed
+from grasp_xl.fitment.caps import NO_CAPS, SAG_MM, Caps, caps_of, trimmed
 from grasp_xl.fitment.cover import cover_above, plan_of
 from grasp_xl.fitment.orientation import rotation
 from grasp_xl.fitment.part import HEIGHT_DECIMALS, LEAST_AREA_MM2, CadPart, Face, in_order, pieces
@@ -25,9 +25,6 @@ from grasp_xl.space import FloatArray, frozen
 
 if TYPE_CHECKING:
     from grasp_xl.fitment.occ import PlaneFace, Ring, Solid
-
-SAG_MM = 0.05
-"""How far the chords of an arc may stray from it: an edge may lie nearer by so much."""
 
 LEVEL_DEG = 0.5
 """How far a face may lean and still be level."""
