@@ -164,7 +164,7 @@ def test_the_part_is_the_solid_beside_the_workbook(alone: Path) -> None:
     record = read_book(RESULT).part
     assert record is not None
     areas = [outline.area_mm2 for outline in record.outlines if outline.number]
-    assert [plate.area.area for plate in part.plates] == pytest.approx(areas, abs=0.01)
+    assert [plate.area.area for plate in part.plates] == pytest.approx(areas, rel=1e-3)
     assert "put bracket.step beside the workbook" in warnings[0].hint
     named = viewed(alone, part=WORKBOOKS / "bracket.step")
     assert named.scene.part.solid is not None
