@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 from shapely import MultiPolygon, Polygon
 
+from grasp_xl.fitment.seams import joined
 from grasp_xl.space import FloatArray
 
 ABOVE_MM = 1e-3
@@ -15,9 +16,6 @@ ABOVE_MM = 1e-3
 
 UPRIGHT = 1e-3
 """z of the unit normal of a triangle that stands upright, round-off included."""
-
-SEAM_MM = 1e-3
-"""Half the width of a crack between triangles that is closed."""
 
 
 def cover_above(mesh: FloatArray, height_mm: float, approach_mm: float) -> Polygon | MultiPolygon:
@@ -36,13 +34,13 @@ def cover_above(mesh: FloatArray, height_mm: float, approach_mm: float) -> Polyg
     down = mesh[(_slope(mesh) < -UPRIGHT) & (z.max(axis=1) > low) & (z.min(axis=1) < high)]
     whole = (down[:, :, 2].min(axis=1) >= low) & (down[:, :, 2].max(axis=1) <= high)
     cut = [Polygon(corners) for corners in _slices(down[~whole], low, high)]
-    return _union([*shapely.polygons(down[whole][:, :, :2]), *cut])
+    return joined([*shapely.polygons(down[whole][:, :, :2]), *cut])
 
 
 def plan_of(mesh: FloatArray) -> Polygon | MultiPolygon:
     """Return a part in plan view: all that surfaces looking up cover."""
     up = mesh[_slope(mesh) > UPRIGHT]
-    return _union(shapely.polygons(up[:, :, :2]))
+    return joined(shapely.polygons(up[:, :, :2]))
 
 
 def _slope(mesh: FloatArray) -> FloatArray:
@@ -71,9 +69,3 @@ def _clipped(corners: list[list[float]], height: float, side: int) -> list[list[
             part = above[0] / (above[0] - above[1])
             kept.append([a + part * (b - a) for a, b in zip(start, end, strict=True)])
     return kept
-
-
-def _union(triangles: object) -> Polygon | MultiPolygon:
-    """Join triangles and close the cracks between them."""
-    whole = shapely.union_all(triangles)
-    return whole.buffer(SEAM_MM, join_style="mitre").buffer(-SEAM_MM, join_style="mitre")

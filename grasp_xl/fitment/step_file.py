@@ -20,6 +20,7 @@ from grasp_xl.fitment.cover import cover_above, plan_of
 from grasp_xl.fitment.orientation import rotation
 from grasp_xl.fitment.part import HEIGHT_DECIMALS, LEAST_AREA_MM2, CadPart, Face, in_order, pieces
 from grasp_xl.fitment.part_choice import choose_part
+from grasp_xl.fitment.seams import joined
 from grasp_xl.fitment.words import AXES
 from grasp_xl.space import FloatArray, frozen
 
@@ -35,9 +36,6 @@ NORMAL_DECIMALS = 7
 
 LEANING_MM = 0.01
 """How far the edges of a face may lie above and below its height without a note."""
-
-SEAM_MM = 1e-3
-"""Half the width of a crack between faces at one height that is closed."""
 
 MOST_REACH_MM = 1e6
 """How far from the origin a part may lie: beyond, places are no longer exact."""
@@ -286,12 +284,9 @@ def _caps(faces: Sequence[Sequence[Ring]]) -> Caps:
 
 
 def _joined(outlines: Sequence[Polygon]) -> list[Polygon]:
-    """Join faces at one height that touch: seams are no edges."""
+    """Join faces in one plane that touch."""
     valid = shapely.make_valid(np.array(outlines, dtype=object))
-    if len(outlines) > 1:
-        wider = shapely.buffer(valid, SEAM_MM, join_style="mitre", mitre_limit=10)
-        valid = shapely.union_all(wider).buffer(-SEAM_MM, join_style="mitre", mitre_limit=10)
-    return pieces(valid)
+    return pieces(joined(valid) if len(outlines) > 1 else valid)
 
 
 def _reachable(
