@@ -29,6 +29,9 @@ smaller."""
 MOST = 1e4
 """Largest multiplier that is tried, over the value."""
 
+LEAST_HEIGHT = 1e-3
+"""Least height that the scale of a step assumes, over the width: a plate's is 0."""
+
 TRIES = 8
 """How often a level is halved that no step can reach."""
 
@@ -54,12 +57,14 @@ def slope_of(
 @inner
 def set_scale(loc: Locations, w: Weights, scale: FloatArray) -> None:
     """Set the units of a step: each changes the value by about as much."""
-    reach = 1e-9
+    wide = 1e-9
     for side in range(4):
-        reach = max(reach, abs(loc.corners[0, side]))
+        wide = max(wide, abs(loc.corners[0, side]))
+    high = LEAST_HEIGHT * wide
     for end in range(2):
-        reach = max(reach, abs(loc.heights[0, end]))
-    scale[0] = scale[1] = scale[2] = 1.0 / max(w.moment * reach, 1e-12)
+        high = max(high, abs(loc.heights[0, end]))
+    scale[0] = scale[1] = 1.0 / max(w.moment * wide, 1e-12)
+    scale[2] = 1.0 / max(w.moment * high, 1e-12)
     scale[3] = 1.0
 
 
