@@ -21,6 +21,9 @@ from grasp_xl.space import FloatArray, IntArray
 STEPS = 6
 """Steps of the multipliers at a node; they go on from its parent's."""
 
+STEPS_OF_HEIGHTS = 24
+"""Steps where a box was parted by height: u turns towards the height that is left."""
+
 STEPS_OF_TRUSS = 16
 """Steps before the grasps on one main truss are enumerated."""
 
@@ -333,16 +336,17 @@ def expand(
             budget = BUDGET if at >= 0 else np.iinfo(np.int64).max
             if enumerate_node(loc, w, boxes, batch.u[i, 0], budget, found[i], genes[i], room):
                 continue
+        steps = STEPS_OF_HEIGHTS if of_heights(loc, boxes[at]) else STEPS
         for c in range(n + 1):
             copy_node(batch, i, mine, c)
         born[i] = split(loc, w, boxes, at, mine.boxes)
         for c in range(born[i]):
             child, u = mine.boxes[c], mine.u[c]
-            bound = node_bound(loc, w, child, upper - slack, u[0], STEPS, room)
+            bound = node_bound(loc, w, child, upper - slack, u[0], steps, room)
             mine.bound[c] = max(bound, batch.bound[i])
             if bound < upper - slack and len(goal_weights) > 0:
                 goals = goal_weights[batch.choice[i]]
-                if node_bound(loc, goals, child, goals.limit, u[1], STEPS, room) > goals.limit:
+                if node_bound(loc, goals, child, goals.limit, u[1], steps, room) > goals.limit:
                     mine.bound[c] = np.inf
 
 
