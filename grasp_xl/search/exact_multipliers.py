@@ -17,9 +17,10 @@ from grasp_xl.search.exact_model import MAGNETS, Locations
 from grasp_xl.search.exact_prices import Room, Truss, Weights, price, relaxed
 from grasp_xl.space import FloatArray, IntArray
 
-FIRST_SHARE, MOST_SHARE = 0.1, 1.01
-"""Share of the way to the limit that the first step aims at, and the largest one: a bit farther, so
-that rounding does not keep the bound below the limit."""
+FIRST_SHARE, FIRST_SHARE_OF_HEIGHTS, MOST_SHARE = 0.1, 1.0, 1.01
+"""Share of the way to the limit that the first step aims at, also where there is a main truss and
+places have several heights, so that a child's multipliers are far from its parent's; and the
+largest share: a bit more than all, so that rounding does not keep the bound below the limit."""
 
 GAINED = 0.3
 LARGER, SMALLER = 3.0, 0.25
@@ -118,7 +119,9 @@ def ascend(
     cuts.met[0] = 0
     for axis in range(MULTIPLIERS):
         cuts.trial[axis] = u[axis]
-    best, level, share, least = -np.inf, -np.inf, FIRST_SHARE, np.inf
+    best, level, least = -np.inf, -np.inf, np.inf
+    turns = t.a >= 0 and loc.heights[0, 0] < loc.heights[0, 1]
+    share = FIRST_SHARE_OF_HEIGHTS if turns else FIRST_SHARE
     for step in range(steps):
         value = truss + relaxed(loc, w, t, leaning, boxes, n, cuts.trial, room)
         if value == np.inf:
