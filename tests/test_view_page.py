@@ -34,7 +34,7 @@ from grasp_xl.stability import support
 from grasp_xl.task import settle
 from grasp_xl.view.page import assembled, scene_data
 
-WEB = VIEW / "web"
+WEB = Path(__file__).parents[1] / "grasp_xl" / "view" / "web"
 FIRST_PICTURE_MS = 2000
 MOST_BYTES = 1_000_000
 CARD = ("force_n", "fos", "cost", "moment", "deviation", "structure", "divergence", "clearance")
