@@ -74,10 +74,10 @@ def test_a_plate_with_a_hole(step: Any) -> None:
 
 
 def test_the_volume_of_a_solid_of_splines_is_that_of_the_same_solid_without(step: Any) -> None:
-    """A disc whose wall is a spline surface: by hand, as is its centroid."""
+    """A disc whose wall is a spline surface: by hand, to a hundred-thousandth, as is its centroid."""
     part = read(step(fused(block(-30, -30, 0, 60, 60, 5), free_form(cylinder(0, 0, 5, 20, 30)))))
     block_mm3, disc_mm3 = 60 * 60 * 5, math.pi * 20**2 * 30
-    assert part.volume_mm3 == pytest.approx(block_mm3 + disc_mm3, rel=1e-6)
+    assert part.volume_mm3 == pytest.approx(block_mm3 + disc_mm3, rel=1e-5)
     z_mm = (block_mm3 * 2.5 + disc_mm3 * 20) / (block_mm3 + disc_mm3)
     assert part.centroid_mm == pytest.approx([0, 0, z_mm], abs=1e-4)
 

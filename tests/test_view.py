@@ -8,11 +8,13 @@ import io
 import json
 import shutil
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import ezdxf
 import numpy as np
+import openpyxl
 import pytest
 import shapely
 from npm import node
@@ -121,14 +123,14 @@ def test_pasted_rows_are_the_grasp_that_they_say(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("1 15 3", "found 1 rows of genes, expected 2"),
+        ("1 15 3", "found 1 row of genes, expected 2"),
         ("1 15 / 3 39 50", "found 3 magnets and 2 indices"),
         ("1 15 / 2 39 39", "one magnets index more than once"),
         ("1 999 / 1 3", "suction index 999 where 1 to 28 are known"),
         ("1 x / 1 3", "found 'x' as a gene, expected whole numbers"),
         ("1 -5 / 1 3", "found '-5' as a gene"),
         ("9 1 2 3 4 5 6 7 8 9 / 1 3", "9 suction where 1 to 5 may be"),
-        ("", "found 0 rows"),
+        ("", "found 0 rows of genes"),
     ],
 )
 def test_rows_that_are_no_grasp_are_told(text: str, told: str) -> None:
@@ -474,3 +476,80 @@ def test_what_cannot_be_is_told_in_a_sentence(
     assert main(["view", str(RESULT), *words]) in (2, 3)
     assert told in capsys.readouterr().err.replace("\n", " ")
     assert not list(tmp_path.iterdir())
+
+
+# --- what people do to files ---
+
+
+def test_the_parts_own_file_is_never_replaced(
+    alone: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Not even with --force: neither the one beside the workbook nor one that was named."""
+    step = Path(shutil.copy(WORKBOOKS / "bracket.step", alone.parent))
+    content = step.read_bytes()
+    for words in ((), ("--part", str(step))):
+        assert view(alone, step, *words, "--force") == 2
+        assert "is the part's own file" in capsys.readouterr().err
+    assert step.read_bytes() == content
+
+
+@pytest.mark.parametrize(
+    ("cell", "value"), [("D5", -4.5), ("E5", 1e300), ("I4", "x"), ("J4", None)]
+)
+def test_an_edited_sheet_of_the_part_is_left_out(
+    alone: Path, cell: str, value: object, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With a warning; the part polygon stands for the part."""
+    book = openpyxl.load_workbook(alone)
+    book["Part"][cell] = value
+    book.save(alone)
+    assert view(alone, alone.with_suffix(".glb")) == 0
+    assert "a list that was edited" in capsys.readouterr().err.replace("\n", " ")
+
+
+def test_a_cut_sheet_of_the_part_is_left_out(
+    alone: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A face without its corners has no outline."""
+    book = openpyxl.load_workbook(alone)
+    book["Part"].delete_rows(30, 1000)
+    book.save(alone)
+    assert view(alone, alone.with_suffix(".glb")) == 0
+    assert "a list that was edited" in capsys.readouterr().err.replace("\n", " ")
+
+
+def test_a_run_that_was_edited_is_told(alone: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Its designs are not shown, and a warning says so."""
+    book = openpyxl.load_workbook(alone)
+    book["Valid Designs"]["D9"] = 99999
+    book.save(alone)
+    assert view(alone, alone.with_suffix(".csv")) == 0
+    assert "a run whose lists were edited" in capsys.readouterr().err.replace("\n", " ")
+
+
+def test_a_grasp_is_shown_also_where_none_is_feasible(tmp_path: Path) -> None:
+    """As evaluate judges it."""
+    book = tmp_path / "heavy.xlsx"
+    source = read_book(RESULT)
+    heavy = replace(source.space, part=replace(source.space.part, mass_g=1e6))
+    book.write_bytes(export_workbook(heavy).content)
+    words = ("--cups", "1,9", "--magnets", "3")
+    assert view(book, tmp_path / "grasp.glb", *words, "--quiet") == 0
+    assert main(["evaluate", str(book), *words, "--quiet"]) == 0
+    assert view(book, tmp_path / "none.glb", "--quiet") == 4
+    with pytest.raises(UsageError, match="Both --design and a grasp"):
+        viewed(design="best", genes="1 15 / 3 39 50 66")
+
+
+@pytest.mark.parametrize("name", ["Ø 40 吸盘", r"A\B", r"G1\S\8 it's", r"a\X2\00FC\X0\b"])
+def test_names_that_are_not_plain_come_back_from_step(tmp_path: Path, name: str) -> None:
+    """Written in ASCII as ISO 10303-21 has it, and read as they were."""
+    own, export, step = (tmp_path / each for each in ("own.csv", "tray.xlsx", "grasp.step"))
+    own.write_text(
+        f'model,kind,force_n,diameter_mm,price\n"{name}",cup,50,30,5\n', encoding="utf-8"
+    )
+    words = ["--cup", name, "--catalogue", str(own), "--thickness", "2", "--quiet"]
+    assert main(["fit", str(WORKBOOKS / "tray.dxf"), "-o", str(export), *words]) == 0
+    assert view(export, step, "--cups", "1,2", "--quiet") == 0
+    assert step.read_bytes().isascii()
+    assert {f"{name}, index 1", f"{name}, index 2"} <= set(labels(step))

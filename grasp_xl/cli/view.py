@@ -83,4 +83,6 @@ def view(
         reporting.print_json(reporting.view_json(viewed, str(output)))
     elif not quiet:
         shown = viewed.scene.shown
-        terminal.line(f"Wrote {output}: {shown.name}, of {len(viewed.scene.designs)} designs.")
+        count = len(viewed.scene.designs)
+        designs = f", of {count} designs" if count > 1 else ""
+        terminal.line(f"Wrote {output}: {shown.name}{designs}.")

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from grasp_xl.chromosome import Chromosome, from_active, index_faults
-from grasp_xl.errors import UsageError
+from grasp_xl.errors import InfeasibleError, UsageError
 from grasp_xl.rules import Terms
 from grasp_xl.search.obstacles import any_feasible
 from grasp_xl.search.stop import Stop, never
@@ -39,6 +39,24 @@ def prepare(
     user = given or book.user_chromosome
     task = settle(book.space, options.over(book.parameters), user, book.assigned, stop)
     return replace(task, warnings=(*book.warnings, *task.warnings))
+
+
+def prepare_to_judge(book: Book, options: Parameters, given: Chromosome | None) -> Task:
+    """Settle the task of a workbook in which a grasp is only looked at.
+
+    Where no grasp can serve as the benchmark, the one that is looked at is measured by itself.
+
+    Raises
+    ------
+    InfeasibleError
+        If there is no such grasp either.
+    """
+    try:
+        return prepare(book, options)
+    except InfeasibleError:
+        if given is None:
+            raise
+        return prepare(book, options, given.active)
 
 
 def refuse_infeasible(task: Task, stop: Stop = never) -> None:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grasp_xl.bill import Line, bill_of
-from grasp_xl.commands.preparing import Active, given_grasp, prepare
+from grasp_xl.commands.preparing import Active, given_grasp, prepare_to_judge
 from grasp_xl.errors import Problem, UsageError
 from grasp_xl.fitment.catalogue import read_catalogue
 from grasp_xl.fitment.step_file import not_installed
@@ -23,6 +23,7 @@ from grasp_xl.workbook.book import Book, read_book
 from grasp_xl.workbook.grasp_sheet import Rendering
 from grasp_xl.workbook.layout import DEFAULT_DIAMETERS_MM
 from grasp_xl.workbook.part_sheet import CUP_ANGLE, MAGNET_ANGLE
+from grasp_xl.workbook.reading_run import logged_values
 from grasp_xl.workbook.saving import check_place, refuse_theirs, save
 
 PAGE, STEP, GLTF, DRAWING, BILL = (".html",), (".step", ".stp"), (".glb",), (".dxf",), (".csv",)
@@ -84,8 +85,22 @@ def view_file(wish: Wish, output: Path, *, force: bool) -> Viewed:
     refuse_theirs(output, [MARK, ",".join(HEADER)], "view", force=force)
     write = _writer(output.suffix.lower())
     viewed = scene_of(wish)
+    _refuse_the_part(output, viewed.scene.part.file)
+    if output.suffix.lower() in BILL:  # it says nothing of the part
+        told = [each for each in viewed.warnings if each not in viewed.scene.part.notes]
+        viewed = replace(viewed, warnings=tuple(told))
     save(write(viewed.scene), output)
     return viewed
+
+
+def _refuse_the_part(output: Path, part: Path | None) -> None:
+    """Refuse to replace the part's own file, whatever is forced."""
+    if part and output.exists() and output.samefile(part):
+        raise UsageError(
+            f"The output {output} is the part's own file.",
+            where=str(output),
+            hint="Name another file with -o",
+        )
 
 
 def _writer(suffix: str) -> Callable[[Scene], bytes]:
@@ -126,7 +141,6 @@ def scene_of(wish: Wish) -> Viewed:
         If something that was asked for is not there, or cannot be read.
     """
     book = read_book(wish.path)
-    task = prepare(book, Parameters())
     given = given_grasp(book.space, wish.grasp)
     if wish.genes is not None:
         if given:
@@ -136,11 +150,26 @@ def scene_of(wish: Wish) -> Viewed:
                 hint="Give the grasp in one way",
             )
         given = pasted_grasp(wish.genes, book.space, "--genes")
+    if given and wish.design is not None:
+        raise UsageError(
+            "Both --design and a grasp were given.",
+            where="--design",
+            hint="Name a design of the workbook, or give a grasp",
+        )
+    task = prepare_to_judge(book, Parameters(), given)
     shape = part_shape(book.space, book.part, wish.path, wish.part)
     models = _models(book, wish.catalogue)
     designs = designs_of(book, task, given)
     scene = Scene(wish.path.name, task, shape, models, designs, chosen(designs, wish.design))
-    return Viewed(scene, (*task.warnings, *shape.notes))
+    return Viewed(scene, (*task.warnings, *_edited_run(book), *shape.notes))
+
+
+def _edited_run(book: Book) -> list[Problem]:
+    """Return a warning where the workbook holds a run that cannot be read any more."""
+    if not logged_values(book.source) or book.shown_run():
+        return []
+    found, expected = "a run whose lists were edited", "the rows as they were written"
+    return [Problem(book.source.name, found, expected, "its designs are not shown; run it again")]
 
 
 def rendered(book: Book, task: Task, design: Design) -> tuple[Rendering, tuple[Problem, ...]]:

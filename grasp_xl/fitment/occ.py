@@ -47,7 +47,7 @@ CHORD_RAD = 0.35
 """Most that a chord of a curve may turn from the one before."""
 
 VOLUME_ACCURACY = 1e-9
-"""Asked of the kernel for solids with free-form faces; 2e-7 of the volume was seen."""
+"""Asked of the kernel for solids with free-form faces; 1e-6 of the volume was seen."""
 
 ELEMENTARY = (GeomAbs_Plane, GeomAbs_Cylinder, GeomAbs_Cone, GeomAbs_Sphere, GeomAbs_Torus)
 """Surfaces on which the kernel's usual integration leaves nothing to be desired."""

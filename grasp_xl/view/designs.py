@@ -22,7 +22,7 @@ GIVEN, PROVED, BEST, WHAT_IF, BENCHMARK = "given", "proved", "best", "what-if", 
 VALID, TRADE_OFF = "valid", "trade-off"
 """Keys of designs; those of a list have a number behind them: ``valid-3``."""
 
-FIRST_SHOWN = (GIVEN, PROVED, BEST, WHAT_IF, BENCHMARK)
+FIRST_SHOWN = (GIVEN, PROVED, BEST, WHAT_IF, f"{TRADE_OFF}-1", BENCHMARK)
 """Of these keys the first that is there names the design that is shown unless one is asked for."""
 
 

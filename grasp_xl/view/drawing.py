@@ -23,7 +23,7 @@ PART, PLACES = "PART", ("CUP_PLACES", "MAGNET_PLACES")
 ELEMENTS, LABELS = ("CUPS", "MAGNETS"), "LABELS"
 MAIN_TRUSS, BRANCHES = "MAIN_TRUSS", "BRANCHES"
 PART_POLYGON, IDEAL_POLYGON, CENTRES = "PART_POLYGON", "IDEAL_POLYGON", "CENTRES"
-LAYERS = {
+LAYERS = {  # without a colour, black or white: whatever the ground is not
     PART: PART_COLOUR,
     PART_POLYGON: GREEN,
     IDEAL_POLYGON: BLUE,
@@ -31,8 +31,8 @@ LAYERS = {
     **dict(zip(ELEMENTS, ELEMENT_COLOURS, strict=True)),
     MAIN_TRUSS: MAIN_COLOUR,
     BRANCHES: MAIN_COLOUR,
-    CENTRES: "#444444",
-    LABELS: "#444444",
+    CENTRES: "",
+    LABELS: "",
 }
 MAIN_WIDTH, BRANCH_WIDTH = 70, 35
 """Widths of lines (0.01 mm)."""
@@ -46,7 +46,8 @@ def drawing_of(scene: Scene) -> bytes:
     drawing.header.custom_vars.append("Program", MARK)
     for name, colour in LAYERS.items():
         layer = drawing.layers.add(name)
-        layer.rgb = colors.RGB.from_hex(colour)
+        if colour:
+            layer.rgb = colors.RGB.from_hex(colour)
     drawing.layers.get(MAIN_TRUSS).dxf.lineweight = MAIN_WIDTH
     drawing.layers.get(BRANCHES).dxf.lineweight = BRANCH_WIDTH
     _draw(scene, drawing.modelspace())

@@ -13,6 +13,7 @@ from shapely import MultiPolygon, Polygon
 from grasp_xl.errors import GraspError, InputError, Problem
 from grasp_xl.fitment.part_file import STEP_SUFFIXES
 from grasp_xl.fitment.words import AXES, USUAL_UP
+from grasp_xl.printable import printable
 from grasp_xl.space import FloatArray, OptionSpace
 from grasp_xl.view.solids import Plate
 from grasp_xl.workbook.part_sheet import (
@@ -27,6 +28,9 @@ from grasp_xl.workbook.part_sheet import (
 
 if TYPE_CHECKING:
     from grasp_xl.fitment.step_file import TurnedSolid
+
+LONGEST_NAME = 200
+"""Characters of a file's name that a sheet may say; no system has longer ones."""
 
 SAME_CENTROID_MM = 0.05
 """How far the centroid of a part's file may lie from that of the workbook."""
@@ -45,12 +49,15 @@ class PartShape:
         Where there is no solid.
     notes : tuple of Problem
         Why it is not shown better, or may be another part.
+    file : Path or None
+        That the solid was read from.
     """
 
     name: str
     solid: TurnedSolid | None
     plates: tuple[Plate, ...]
     notes: tuple[Problem, ...] = ()
+    file: Path | None = None
 
 
 def part_shape(
@@ -79,19 +86,23 @@ def part_shape(
         return _of_file(space, record, file)
     if record is None:
         return PartShape("part", None, (_outline(space),))
-    named = str(record.fact(SOURCE_FILE) or "part")
-    if _number(record.fact(THICKNESS)):
-        return PartShape(named, None, _plates(record))
-    beside = book.parent / Path(named).name
+    plates = _plates(record)
+    if not plates:
+        return PartShape("part", None, (_outline(space),))
+    named = Path(str(record.fact(SOURCE_FILE) or "")).name
+    if _number(record.fact(THICKNESS)) or not 0 < len(named) <= LONGEST_NAME:
+        return PartShape(named[:LONGEST_NAME] or "part", None, plates)
+    beside = book.parent / named
     try:
         if beside.is_file():
             return _of_file(space, record, beside)
-        reason, hint = "no such file", f"put {named} beside the workbook, or name it with --part"
-    except GraspError as error:
-        reason, hint = error.message.rstrip("."), error.hint
-    note = Problem(str(beside), f"no solid to show ({reason})", "the part's file", hint)
-    faces = Problem(str(book), "the part's faces", "its solid", "the faces alone are shown")
-    return PartShape(named, None, _plates(record), (note, faces))
+        found = "no such file"
+        hint = f"put {printable(named)} beside the workbook, or name it with --part"
+    except (GraspError, OSError, ValueError) as error:
+        found = f"a file that cannot be read ({str(error).rstrip('.')})"
+        hint = getattr(error, "hint", "") or "export the part anew"
+    where, expected = printable(str(beside)), "the part's solid; its faces alone are shown"
+    return PartShape(named, None, plates, (Problem(where, found, expected, hint),))
 
 
 def _of_file(space: OptionSpace, record: PartRecord | None, file: Path) -> PartShape:
@@ -117,7 +128,7 @@ def _of_file(space: OptionSpace, record: PartRecord | None, file: Path) -> PartS
         found = f"a solid whose centroid lies {away:.3g} mm from the workbook's"
         hint = "places and part may not belong together"
         notes.append(Problem(str(file), found, "the part of the workbook", hint))
-    return PartShape(file.name, turned, (), tuple(notes))
+    return PartShape(file.name, turned, (), tuple(notes), file)
 
 
 def _plates(record: PartRecord) -> tuple[Plate, ...]:

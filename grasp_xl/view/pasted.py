@@ -35,7 +35,8 @@ def pasted_grasp(text: str, space: OptionSpace, option: str) -> Chromosome:
         size = len(rows[0]) // kinds
         rows = [rows[0][start : start + size] for start in range(0, kinds * size, size)]
     if len(rows) != kinds:
-        raise _refused(option, f"{len(rows)} rows of genes", f"{kinds}, one a kind")
+        told = f"{len(rows)} row{'s' if len(rows) != 1 else ''} of genes"
+        raise _refused(option, told, f"{kinds}, one a kind")
     active = []
     for kind, row in zip(space.kinds, rows, strict=True):
         strange = [gene for gene in row if not gene.isascii() or not gene.isdigit()]

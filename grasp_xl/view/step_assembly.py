@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -45,6 +46,9 @@ from grasp_xl.view.solids import Bar, Block, Plate, Solid, Turned
 
 Shape = Any
 """A ``TopoDS_Shape``: OCP has no types."""
+
+STRANGE = re.compile(r"[^ -\[\]-~]+")
+"""Letters that a STEP file does not hold as they are."""
 
 FORMAT = "MDTV-XCAF"
 ROOT = "Grasp"
@@ -98,8 +102,11 @@ class _Assembly:
         writer.SetColorMode(True)  # noqa: FBT003 (its one parameter)
         done = writer.Transfer(self._document, STEPControl_AsIs)
         header = APIHeaderSection_MakeHeader(writer.ChangeWriter().Model())
-        header.SetName(TCollection_HAsciiString(title.encode("ascii", "replace").decode()))
+        header.SetName(TCollection_HAsciiString(_encoded(title)))
         header.SetOriginatingSystem(TCollection_HAsciiString(MARK))
+        for set_value in (header.SetAuthorValue, header.SetOrganizationValue):
+            set_value(1, TCollection_HAsciiString(""))
+        header.SetDescriptionValue(1, TCollection_HAsciiString("Grasp: part, elements and frame"))
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "grasp.step"
             if done and writer.Write(str(path)) == IFSelect_RetDone:
@@ -111,8 +118,23 @@ class _Assembly:
 
     @staticmethod
     def _named(label: Any, name: str) -> Any:  # noqa: ANN401 (OCP has no types)
-        TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))  # noqa: FBT003 (UTF-8)
+        TDataStd_Name.Set_s(label, TCollection_ExtendedString(_encoded(name)))
         return label
+
+
+def _encoded(text: str) -> str:
+    r"""Return a text as ISO 10303-21 wants it: in hexadecimal what is not ASCII, and the backslash.
+
+    Examples
+    --------
+    >>> print(_encoded("SAF 40"), _encoded("Ø 40"))
+    SAF 40 \X2\00D8\X0\ 40
+    """
+
+    def escape(found: re.Match[str]) -> str:
+        return f"\\X2\\{found[0].encode('utf-16-be', 'surrogatepass').hex().upper()}\\X0\\"
+
+    return STRANGE.sub(escape, text)
 
 
 def _colour(colour: str) -> Any:  # noqa: ANN401 (OCP has no types)

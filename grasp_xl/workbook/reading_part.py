@@ -22,6 +22,10 @@ from grasp_xl.workbook.part_sheet import (
 )
 from grasp_xl.workbook.written import CellValue
 
+LEAST_CORNERS = 3
+MOST = 1e9
+"""Bounds of a ring's corners, and of every number."""
+
 
 def has_part(source: Source) -> bool:
     """Tell whether a workbook has the sheet, and not somebody's own of that name."""
@@ -49,17 +53,35 @@ def _record(source: Source) -> PartRecord:
     rings: dict[int, dict[int, list[tuple[float, float]]]] = defaultdict(lambda: defaultdict(list))
     for face, ring, x, y in _rows(source, OUTLINE_COLUMN, OUTLINE_HEADER):
         rings[int(_number(face))][int(_number(ring))].append((_number(x), _number(y)))
+    for numbers in rings.values():
+        if any(len(corners) < LEAST_CORNERS for corners in numbers.values()):
+            raise ValueError(numbers)
     outlines = [
         FaceOutline(
             int(_number(number)),
             None if is_blank(height) else _number(height),
             _number(area),
             "" if is_blank(used) else str(used),
-            tuple(frozen(corners) for corners in rings[int(_number(number))].values()),
+            tuple(frozen(corners) for corners in _rings_of(rings, int(_number(number)))),
         )
         for number, height, area, used in _rows(source, FACE_COLUMN, FACE_HEADER)
     ]
     return PartRecord(facts, tuple(outlines))
+
+
+def _rings_of(
+    rings: dict[int, dict[int, list[tuple[float, float]]]], number: int
+) -> list[list[tuple[float, float]]]:
+    """Return the rings of a face.
+
+    Raises
+    ------
+    KeyError
+        If it has none.
+    """
+    if number not in rings:
+        raise KeyError(number)
+    return list(rings[number].values())
 
 
 def _rows(source: Source, column: int, header: tuple[str, ...]) -> Iterator[tuple[Value, ...]]:
@@ -87,4 +109,6 @@ def _fact(value: Value) -> CellValue:
 def _number(value: Value) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise TypeError(value)
+    if not abs(value) <= MOST:
+        raise ValueError(value)
     return float(value)

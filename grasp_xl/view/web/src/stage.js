@@ -10,6 +10,9 @@ import { Scene, WebGLRenderer } from "./three.js";
 
 const GLIDE_MS = 220;
 /** Pixels between the two panes. */
+/** Width (pixels) from which on two pictures have room beside each other. */
+const SIDE_BY_SIDE = 480;
+
 const GAP = 2;
 /** Pixels below which nothing is drawn. */
 const LEAST = 16;
@@ -118,7 +121,7 @@ export class Stage {
     };
     const corners = this.around.corners(Math.max(...this.grippers.map((each) => each.top)));
     Object.assign(eye, { azimuth, tilt });
-    this.#arrange(corners);
+    this.#arrange();
     const [pane] = this.#panes();
     this.fits = true;
     eye.fit(corners, pane.width / pane.height);
@@ -128,10 +131,9 @@ export class Stage {
     this.draw();
   }
 
-  /** Put two panes beside each other or one above the other, where the part gets larger. */
-  #arrange(corners) {
-    const scale = ([{ width, height }]) => height / this.eye.fitted(corners, width / height).span;
-    this.stacked = scale(this.#panes(true)) > scale(this.#panes(false));
+  /** Put two panes side by side, or one above the other where there is no room. */
+  #arrange() {
+    this.stacked = this.width < SIDE_BY_SIDE && this.height > this.width;
     this.arranged(this.stacked);
   }
 
