@@ -171,7 +171,7 @@ def _design(scene: Scene, design: Design) -> Json:
     return {
         "group": design.group,
         "name": design.name,
-        "note": "",
+        "note": f"--design {design.key}",
         "genes": design.chromosome.rows(),
         "card": _card(scene.grasp(design)),
     }
