@@ -143,8 +143,8 @@ def fit_file(request: Request, output: Path, *, force: bool) -> FittedPart:
     OutputError
         If the sheet cannot be written.
     """
-    check_place(output, [EXPORT_SUFFIX], force=force)
-    check_target(output, request.path, in_place=False, force=force)
+    suffixes = [EXPORT_SUFFIX]
+    check_target(output, request.path, in_place=False, force=force, suffixes=suffixes)
     lost = replaced(Output(output, force=force))
     fitment = _fitment(request)
     part = read_part(request.path, request.reading)

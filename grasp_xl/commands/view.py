@@ -23,7 +23,7 @@ from grasp_xl.workbook.book import Book, read_book
 from grasp_xl.workbook.grasp_sheet import Rendering
 from grasp_xl.workbook.layout import DEFAULT_DIAMETERS_MM
 from grasp_xl.workbook.part_sheet import CUP_ANGLE, MAGNET_ANGLE
-from grasp_xl.workbook.reading_run import logged_values
+from grasp_xl.workbook.reading_run import SavedRun, logged_values
 from grasp_xl.workbook.saving import check_place, refuse_theirs, save
 
 PAGE, STEP, GLTF, DRAWING, BILL = (".html",), (".step", ".stp"), (".glb",), (".dxf",), (".csv",)
@@ -159,14 +159,15 @@ def scene_of(wish: Wish) -> Viewed:
     task = prepare_to_judge(book, Parameters(), given)
     shape = part_shape(book.space, book.part, wish.path, wish.part)
     models = _models(book, wish.catalogue)
-    designs = designs_of(book, task, given)
+    run = book.shown_run()
+    designs = designs_of(book, run, task, given)
     scene = Scene(wish.path.name, task, shape, models, designs, chosen(designs, wish.design))
-    return Viewed(scene, (*task.warnings, *_edited_run(book), *shape.notes))
+    return Viewed(scene, (*task.warnings, *_edited_run(book, run), *shape.notes))
 
 
-def _edited_run(book: Book) -> list[Problem]:
+def _edited_run(book: Book, run: SavedRun | None) -> list[Problem]:
     """Return a warning where the workbook holds a run that cannot be read any more."""
-    if not logged_values(book.source) or book.shown_run():
+    if run or not logged_values(book.source):
         return []
     found, expected = "a run whose lists were edited", "the rows as they were written"
     return [Problem(book.source.name, found, expected, "its designs are not shown; run it again")]

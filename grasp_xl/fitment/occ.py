@@ -126,6 +126,12 @@ class PlaneFace:
         return [_ring(wire, self.shape, sag_mm) for wire in (outer, *holes)]
 
 
+def silence() -> None:
+    """Keep the kernel from writing to standard output."""
+    for printer in list(Message.DefaultMessenger_s().Printers()):
+        Message.DefaultMessenger_s().RemovePrinter(printer)
+
+
 def read_solids(path: Path) -> tuple[list[Solid], int]:
     """Read the solids of a STEP file, the largest first, and count the faces of none of them.
 
@@ -134,8 +140,7 @@ def read_solids(path: Path) -> tuple[list[Solid], int]:
     ReadError
         If it cannot be read.
     """
-    for printer in list(Message.DefaultMessenger_s().Printers()):
-        Message.DefaultMessenger_s().RemovePrinter(printer)  # it writes to standard output
+    silence()
     shape = _shape_of(path)
     solids = [_solid(TopoDS.Solid(each)) for each in _parts(shape, TopAbs_SOLID)]
     solids.sort(key=lambda solid: (-solid.volume_mm3, *solid.centroid_mm.tolist()))

@@ -73,6 +73,18 @@ def pieces_of(scene: Scene) -> list[Piece]:
     return pieces
 
 
+def rgb(colour: str) -> tuple[float, float, float]:
+    """Return red, green and blue of a colour, from 0 to 1.
+
+    Examples
+    --------
+    >>> rgb("#FF0033")
+    (1.0, 0.0, 0.2)
+    """
+    red, green, blue = (int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5))
+    return red, green, blue
+
+
 def kind_name(scene: Scene, kind: int) -> str:
     """Return the model of a kind, or what it is."""
     return scene.task.space.kinds[kind].model or ELEMENT_WORDS[kind]

@@ -10,12 +10,11 @@ from grasp_xl.errors import UsageError
 from grasp_xl.printable import quoted
 from grasp_xl.rounding import percent
 from grasp_xl.rules import TERMS, Terms
-from grasp_xl.search.result import Trace
 from grasp_xl.space import OptionSpace
 from grasp_xl.task import Task
 from grasp_xl.workbook.book import Book
 from grasp_xl.workbook.layout import TRADE_OFFS, VALID_DESIGNS
-from grasp_xl.workbook.reading_run import shown_proof
+from grasp_xl.workbook.reading_run import SavedRun, shown_proof
 from grasp_xl.workbook.trade_offs_sheet import TradeOff
 
 GIVEN, PROVED, BEST, WHAT_IF, BENCHMARK = "given", "proved", "best", "what-if", "benchmark"
@@ -45,16 +44,21 @@ class Design:
     chromosome: Chromosome
 
 
-def designs_of(book: Book, task: Task, given: Chromosome | None = None) -> tuple[Design, ...]:
+def designs_of(
+    book: Book, run: SavedRun | None, task: Task, given: Chromosome | None = None
+) -> tuple[Design, ...]:
     """Return the designs of a workbook that its option space still has.
 
     Parameters
     ----------
-    book, task
+    book : Book
+    run : SavedRun or None
+        That it shows.
+    task : Task
     given : Chromosome, optional
         A grasp that a person asked for beside them.
     """
-    found = [*_single(book, task, given), *_valid(book), *_trade_offs(book)]
+    found = [*_single(book, run, task, given), *_valid(run), *_trade_offs(book)]
     return tuple(design for design in found if _is_of(design.chromosome, task.space))
 
 
@@ -82,13 +86,14 @@ def chosen(designs: Sequence[Design], key: str | None) -> Design:
     )
 
 
-def _single(book: Book, task: Task, given: Chromosome | None) -> Iterator[Design]:
+def _single(
+    book: Book, run: SavedRun | None, task: Task, given: Chromosome | None
+) -> Iterator[Design]:
     if given:
         yield Design(GIVEN, "Given", "Given grasp", given)
     proof = shown_proof(book.source, task)
     if proof and proof.grasp:
         yield Design(PROVED, "Results", proof.title, proof.grasp.chromosome)
-    run = book.shown_run()
     if run and run.state.best:
         yield Design(BEST, "Results", "Best of the run", run.state.best)
     if book.what_if:
@@ -97,11 +102,10 @@ def _single(book: Book, task: Task, given: Chromosome | None) -> Iterator[Design
     yield Design(BENCHMARK, "Benchmark", f"{who} (benchmark)", task.benchmark.chromosome)
 
 
-def _valid(book: Book) -> Iterator[Design]:
-    run = book.shown_run()
-    designs: Trace | None = run.state.designs if run else None
-    if designs is None:
+def _valid(run: SavedRun | None) -> Iterator[Design]:
+    if run is None:
         return
+    designs = run.state.designs
     for number, (generation, genes) in enumerate(
         zip(designs.generation.tolist(), designs.genes, strict=True), 1
     ):

@@ -68,9 +68,10 @@ def _draw(scene: Scene, paper: Any) -> None:  # noqa: ANN401 (ezdxf's layout)
             paper.add_point(place[:2], dxfattribs={"layer": layer})
     for each in grip.elements:
         middle = each.place_mm[:2].tolist()
-        for ring in _outlines(scene, each.kind, middle):
+        outlines = _outlines(scene, each.kind, middle)
+        for ring in outlines:
             _closed(paper, ring, ELEMENTS[each.kind])
-        if not _outlines(scene, each.kind, middle):
+        if not outlines:
             radius = scene.models[each.kind].size_mm / 2
             paper.add_circle(middle, radius, dxfattribs={"layer": ELEMENTS[each.kind]})
         _label(paper, str(each.index), middle, TEXT * size)

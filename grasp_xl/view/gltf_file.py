@@ -8,7 +8,7 @@ import numpy as np
 import trimesh
 
 from grasp_xl.space import FloatArray, frozen
-from grasp_xl.view.assembly import MARK, PART, PART_COLOUR, pieces_of
+from grasp_xl.view.assembly import MARK, PART, PART_COLOUR, pieces_of, rgb
 from grasp_xl.view.meshes import Shaded, shaded, triangles_of
 from grasp_xl.view.scene import Scene
 
@@ -57,9 +57,8 @@ def _marked(tree: dict[str, Any]) -> None:
 
 
 def _material(colour: str) -> trimesh.visual.material.PBRMaterial:
-    red, green, blue = (int(colour[at : at + 2], 16) for at in (1, 3, 5))
     return trimesh.visual.material.PBRMaterial(
-        baseColorFactor=[red, green, blue, 255],
+        baseColorFactor=[*(round(255 * part) for part in rgb(colour)), 255],
         metallicFactor=METAL,
         roughnessFactor=ROUGHNESS,
         doubleSided=True,

@@ -84,10 +84,7 @@ def part_shape(
     """
     if file:
         return _of_file(space, record, file)
-    if record is None:
-        return PartShape("part", None, (_outline(space),))
-    plates = _plates(record)
-    if not plates:
+    if record is None or not (plates := _plates(record)):
         return PartShape("part", None, (_outline(space),))
     named = Path(str(record.fact(SOURCE_FILE) or "")).name
     if _number(record.fact(THICKNESS)) or not 0 < len(named) <= LONGEST_NAME:

@@ -8,7 +8,7 @@ import numpy as np
 from PIL import Image
 
 from grasp_xl.space import FloatArray, IntArray, frozen
-from grasp_xl.view.assembly import PART_COLOUR, pieces_of
+from grasp_xl.view.assembly import PART_COLOUR, pieces_of, rgb
 from grasp_xl.view.meshes import CREASE_DEG, Shaded, shaded, triangles_of
 from grasp_xl.view.raster import NOTHING, empty, fill
 from grasp_xl.view.scene import Scene
@@ -41,7 +41,7 @@ def picture_of(scene: Scene) -> bytes:
     normals = np.concatenate([shape.normals[shape.triangles] for shape, _ in shapes])
     counts = [len(shape.triangles) for shape, _ in shapes]
     piece = np.repeat(np.arange(len(shapes)), counts)
-    colours = np.array([_rgb(colour) for _, colour in shapes])
+    colours = np.array([rgb(colour) for _, colour in shapes])
     camera = _camera()
     depth, seen, normal_at = empty(HEIGHT * FINER, WIDTH * FINER)
     fill(_on_screen(corners @ camera.T), normals, depth, seen, normal_at)
@@ -119,7 +119,3 @@ def _edges(depth: FloatArray, owner: IntArray, units: FloatArray) -> FloatArray:
         edges[one] |= found & (owner[one] != NOTHING)
         edges[other] |= found & (owner[other] != NOTHING)
     return edges
-
-
-def _rgb(colour: str) -> list[float]:
-    return [int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5)]

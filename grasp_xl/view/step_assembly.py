@@ -24,7 +24,6 @@ from OCP.BRepPrimAPI import (
 )
 from OCP.gp import gp_Ax1, gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
 from OCP.IFSelect import IFSelect_RetDone
-from OCP.Message import Message
 from OCP.Quantity import Quantity_Color, Quantity_TOC_sRGB
 from OCP.STEPCAFControl import STEPCAFControl_Writer
 from OCP.STEPControl import STEPControl_AsIs
@@ -38,9 +37,10 @@ from OCP.XCAFDoc import XCAFDoc_ColorSurf, XCAFDoc_DocumentTool
 from shapely import Polygon
 
 from grasp_xl.errors import OutputError
+from grasp_xl.fitment.occ import silence
 from grasp_xl.fitment.step_file import TurnedSolid
 from grasp_xl.space import FloatArray
-from grasp_xl.view.assembly import MARK, PART, PART_COLOUR, pieces_of
+from grasp_xl.view.assembly import MARK, PART, PART_COLOUR, pieces_of, rgb
 from grasp_xl.view.scene import Scene
 from grasp_xl.view.solids import Bar, Block, Plate, Solid, Turned
 
@@ -62,8 +62,7 @@ def step_of(scene: Scene) -> bytes:
     OutputError
         If OpenCASCADE cannot write it.
     """
-    for printer in list(Message.DefaultMessenger_s().Printers()):
-        Message.DefaultMessenger_s().RemovePrinter(printer)  # it writes to standard output
+    silence()
     document = TDocStd_Document(TCollection_ExtendedString(FORMAT))
     XCAFApp_Application.GetApplication_s().NewDocument(TCollection_ExtendedString(FORMAT), document)
     assembly = _Assembly(document)
@@ -138,8 +137,7 @@ def _encoded(text: str) -> str:
 
 
 def _colour(colour: str) -> Any:  # noqa: ANN401 (OCP has no types)
-    red, green, blue = (int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5))
-    return Quantity_Color(red, green, blue, Quantity_TOC_sRGB)
+    return Quantity_Color(*rgb(colour), Quantity_TOC_sRGB)
 
 
 def _turned_part(part: TurnedSolid) -> Shape:

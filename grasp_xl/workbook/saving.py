@@ -125,7 +125,14 @@ def refuse_theirs(
         )
 
 
-def check_target(target: Path, source: Path, *, in_place: bool, force: bool) -> None:
+def check_target(
+    target: Path,
+    source: Path,
+    *,
+    in_place: bool,
+    force: bool,
+    suffixes: Sequence[str] = WORKBOOK_SUFFIXES,
+) -> None:
     """Refuse a workbook that could not be written, before any work is done.
 
     Raises
@@ -135,7 +142,7 @@ def check_target(target: Path, source: Path, *, in_place: bool, force: bool) -> 
     OutputError
         If it cannot be written, or is held open.
     """
-    check_place(target, WORKBOOK_SUFFIXES, force=force)
+    check_place(target, suffixes, force=force)
     if not in_place and target.exists() and source.exists() and target.samefile(source):
         raise UsageError(
             f"The output {target} is the input.",
