@@ -55,6 +55,17 @@ def test_optimum_equals_brute_force(data):
     assert found == pytest.approx(good[:1], rel=1e-8, abs=1e-9)
 
 
+@settings(max_examples=60, deadline=None)
+@given(data=st.data(), rows=st.sampled_from(["x", "y"]))
+def test_rows_first_equals_brute_force(data, rows):
+    """Telling rows of places apart first is another way to the same three best grasps."""
+    space, rules = data.draw(option_spaces(most=5)), data.draw(any_rules())
+    grasps = distinct(space, all_grasps(space, rules))
+    proof = solve(space, rules, ExactSettings(top=3, rows=rows))
+    values = [grasp.value for grasp in grasps[:3]]
+    assert [grasp.value for grasp in proof.designs] == pytest.approx(values, rel=1e-8, abs=1e-9)
+
+
 @settings(max_examples=20, deadline=None)
 @given(data=st.data())
 def test_places_at_many_heights_equal_brute_force(data):
@@ -184,33 +195,33 @@ def test_nothing_found_in_no_time_is_unknown():
 
 @given(
     points=st.lists(st.tuples(*[st.integers(0, 9)] * 3), min_size=1, max_size=40),
-    by_height=st.booleans(),
+    first=st.sampled_from([(), (2,), (0,), (1,), (2, 1)]),
 )
-def test_tree_parts_heights_and_halves_other_boxes(points, by_height):
+def test_tree_parts_first_axes_and_halves_other_boxes(points, first):
     """A box has the bounds of its locations; its two parts share them, lower one first."""
     xyz = np.array(points, dtype=float)
-    order, corners, run, child = grow_tree(xyz, by_height=by_height)
+    order, corners, run, child = grow_tree(xyz, first)
     assert sorted(order) == list(range(len(xyz)))
     assert len(run) == 2 * len(xyz) - 1
-    for box, (first, last) in enumerate(run.tolist()):
-        inside = xyz[order[first:last]]
+    for box, (begin, end) in enumerate(run.tolist()):
+        inside = xyz[order[begin:end]]
         assert corners[box].tolist() == [*inside[:, :2].min(axis=0), *inside[:, :2].max(axis=0)]
-        if last - first == 1:
+        if end - begin == 1:
             assert child[box].tolist() == [-1, -1]
             continue
         low, high = run[child[box]].tolist()
-        assert [first, low[1], last] == [low[0], high[0], high[1]]
-        steps = np.flatnonzero(np.diff(inside[:, 2])) + 1
-        if by_height and len(steps):
-            middle = (last - first) // 2
-            assert low[1] - first in steps
-            assert abs(low[1] - first - middle) == abs(steps - middle).min()
-            assert inside[: low[1] - first, 2].max() < inside[low[1] - first :, 2].min()
+        assert [begin, low[1], end] == [low[0], high[0], high[1]]
+        several = [axis for axis in first if np.ptp(inside[:, axis]) > 0]
+        if several:
+            along, middle = inside[:, several[0]], (end - begin) // 2
+            steps = np.flatnonzero(np.diff(np.sort(along))) + 1
+            assert abs(low[1] - begin - middle) == abs(steps - middle).min()
+            assert along[: low[1] - begin].max() < along[low[1] - begin :].min()
             continue
-        assert low[1] == (first + last) // 2
+        assert low[1] == (begin + end) // 2
         x, y = corners[box, 2:] - corners[box, :2]
         along = inside[:, 0 if x >= y else 1]
-        assert along[: low[1] - first].max() <= along[low[1] - first :].min()
+        assert along[: low[1] - begin].max() <= along[low[1] - begin :].min()
 
 
 def test_no_kernel_is_compiled_twice(tmp_path):

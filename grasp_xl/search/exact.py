@@ -22,7 +22,7 @@ from grasp_xl.rules import SLACK, Rules
 from grasp_xl.search.exact_bound import node_bound
 from grasp_xl.search.exact_frontier import Frontier
 from grasp_xl.search.exact_kernel import Nodes, make_nodes
-from grasp_xl.search.exact_model import Model, locate, weigh, weigh_goals
+from grasp_xl.search.exact_model import Model, Rows, locate, weigh, weigh_goals
 from grasp_xl.search.exact_pool import Found, Pool
 from grasp_xl.search.exact_prices import make_room
 from grasp_xl.search.exact_workers import Workers
@@ -72,6 +72,8 @@ class ExactSettings:
     meet_goals : bool
         Only grasps whose every normalised value is at most 1.
     min_elements : int
+    rows : {"x", "y"}, optional
+        Rows of places that are told apart first: another way to the same proof.
     """
 
     time_limit_s: float = math.inf
@@ -79,6 +81,7 @@ class ExactSettings:
     top: int = 1
     meet_goals: bool = False
     min_elements: int = 1
+    rows: Rows | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -173,7 +176,7 @@ class _Search:
         for chromosome in known:
             self._take_known(chromosome)
         self.model = Model(
-            locate(space, rules, caps=settings.meet_goals),
+            locate(space, rules, caps=settings.meet_goals, rows=settings.rows),
             weigh(space, rules, self.counts, caps=settings.meet_goals),
             weigh_goals(space, rules, self.counts if settings.meet_goals else []),
         )

@@ -178,13 +178,6 @@ def put_children(
 
 
 @inner
-def width(loc: Locations, box: int) -> float:
-    """Return the larger side of a box (mm); -1 for a single location."""
-    c = loc.corners[box]
-    return -1.0 if loc.child[box, 0] < 0 else max(c[2] - c[0], c[3] - c[1])
-
-
-@inner
 def has_truss(loc: Locations, boxes: IntArray) -> bool:
     """Tell whether both ends of the main truss are single locations."""
     ends: bool = loc.child[boxes[0], 0] < 0 and loc.child[boxes[1], 0] < 0
@@ -200,9 +193,13 @@ def of_heights(loc: Locations, box: int) -> bool:
 
 @inner
 def of_two_kinds(loc: Locations, w: Weights, box: int) -> bool:
-    """Tell whether an element of a box may be a cup or a magnet."""
+    """Tell whether an element of a box may be a cup or a magnet, and is to be one of them.
+
+    On a flat part the multipliers tell the kinds apart as well, and in fewer nodes.
+    """
+    several: bool = loc.heights[0, 0] < loc.heights[0, 1]
     both: bool = loc.carries[box, CUPS] and loc.carries[box, MAGNETS]
-    return both and w.cups > 0 and w.magnets > 0
+    return several and both and w.cups > 0 and w.magnets > 0
 
 
 @inner
@@ -215,13 +212,13 @@ def to_split(loc: Locations, w: Weights, boxes: IntArray, n: int) -> int:
         if of_heights(loc, boxes[i]):
             return i
     if w.trussed and not has_truss(loc, boxes):
-        return int(width(loc, boxes[1]) > width(loc, boxes[0]))
+        return int(loc.width[boxes[1]] > loc.width[boxes[0]])
     widest, at = -1.0, -1
     for i in range(n):
         if of_two_kinds(loc, w, boxes[i]):
             return i
-        if width(loc, boxes[i]) > widest:
-            widest, at = width(loc, boxes[i]), i
+        if loc.width[boxes[i]] > widest:
+            widest, at = loc.width[boxes[i]], i
     return at
 
 

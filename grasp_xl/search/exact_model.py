@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,6 +53,9 @@ use.
 """
 
 
+Rows = Literal["x", "y"]
+"""Places of a grid with the same x, or the same y, make a row."""
+
 FEW_HEIGHTS = 8
 """Of parts with flat faces; where places lie at more, boxes are not parted by height: those of a
 curved part would be parted by nothing else."""
@@ -68,7 +71,8 @@ class Locations(NamedTuple):
     ``(m, 4)`` xmin, ymin, xmax, ymax; run ``(m, 2)`` its first and behind its last location; child
     ``(m, 2)`` boxes, -1 at a single location; heights ``(m, 2)`` least and largest z;
     least_deviation ``(m,)``; carries ``(m, 2)`` whether it has a footprint of each kind; tight
-    ``(m,)`` whether no two of its locations keep the clearance.  by_height: whether boxes of
+    ``(m,)`` whether no two of its locations keep the clearance; width ``(m,)`` by which the box to
+    split is chosen: its larger side (mm), -1 at a single location.  by_height: whether boxes of
     several heights are parted first.
     """
 
@@ -82,6 +86,7 @@ class Locations(NamedTuple):
     least_deviation: FloatArray
     carries: NDArray[np.bool_]
     tight: NDArray[np.bool_]
+    width: FloatArray
     by_height: bool
 
 
@@ -97,10 +102,14 @@ class Model(NamedTuple):
     goal_weights: RecordArray
 
 
-def locate(space: OptionSpace, rules: Rules, *, caps: bool = False) -> Locations:
+def locate(
+    space: OptionSpace, rules: Rules, *, caps: bool = False, rows: Rows | None = None
+) -> Locations:
     """Merge footprints at one place into locations, and lay a kd-tree over them, once a kind.
 
-    With ``caps``, the moment counts in any case.
+    With ``caps``, the moment counts in any case.  Boxes of several ``rows`` are parted before all
+    others: where the moment can be balanced along the rows in very many ways, but hardly across
+    them, they show that soon.
     """
     places: dict[tuple[float, ...], list[int]] = {}
     for number, kind in enumerate(space.kinds):
@@ -114,11 +123,16 @@ def locate(space: OptionSpace, rules: Rules, *, caps: bool = False) -> Locations
     if level or rules.requirements.moment_arm == "plan":
         xyz[:, 2] = 0.0
     by_height = len(np.unique(xyz[:, 2])) <= FEW_HEIGHTS
-    order, corners, run, child = grow_tree(xyz, by_height=by_height)
+    across = [] if rows is None else ["xy".index(rows)]
+    order, corners, run, child = grow_tree(xyz, [2, *across] if by_height else across)
     xyz, deviation, footprint = np.ascontiguousarray(xyz[order]), deviation[order], footprint[order]
     summed = [slice(first, last) for first, last in run.tolist()]
     clearance = rules.requirements.clearance_mm * (1 - SLACK)
     sides = corners[:, 2:] - corners[:, :2]
+    width = sides.max(axis=1, initial=0.0)
+    for axis in across:
+        width[sides[:, axis] > 0] += width.max()
+    width[child[:, 0] < 0] = -1.0
     carries = np.array([(footprint[part] >= 0).any(axis=0) for part in summed]).reshape(-1, 2)
     boxes = len(run)
     return Locations(
@@ -135,18 +149,19 @@ def locate(space: OptionSpace, rules: Rules, *, caps: bool = False) -> Locations
         np.tile([deviation[part].min() for part in summed], 3),
         np.concatenate([carries, carries & [True, False], carries & [False, True]]),
         np.tile((sides**2).sum(axis=1) < clearance**2, 3),
+        np.tile(width, 3),
         by_height,
     )
 
 
 def grow_tree(
-    xyz: FloatArray, *, by_height: bool
+    xyz: FloatArray, first_axes: Sequence[int]
 ) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
     """Build a kd-tree down to single points: point order, plan-view corners, runs, children.
 
-    With ``by_height``, a box of several heights is parted between two of them, as near to its
-    middle as may be; others are halved across their longer side.  All boxes of a level at once, in
-    NumPy: compiling takes longer than it will ever save.
+    A box with several values on one of the first axes, in their order, is parted between two of
+    them, as near to its middle as may be; others are halved across their longer side.  All boxes of
+    a level at once, in NumPy: compiling takes longer than it will ever save.
     """
     order = np.arange(len(xyz))
     level, boxes = np.array([[0, len(xyz)]]), 1
@@ -161,14 +176,18 @@ def grow_tree(
         points = xyz[order[place]]
         low, high = np.minimum.reduceat(points, begin), np.maximum.reduceat(points, begin)
         wide = high - low
-        longer = np.where(wide[:, 0] >= wide[:, 1], 0, 1)
-        axis = np.where(by_height & (wide[:, 2] > 0), 2, longer)[box]
+        across = np.where(wide[:, 0] >= wide[:, 1], 0, 1)
+        between = np.zeros(len(level), dtype=bool)
+        for each in reversed(first_axes):
+            across[wide[:, each] > 0] = each
+            between |= wide[:, each] > 0
+        axis = across[box]
         sort = np.lexsort((points[row, axis], box))
         order[place] = order[place][sort]
         half = size // 2
         away = row - (begin + half)[box]
-        height = points[sort, 2]
-        inseparable = (axis == 2) & (height == np.roll(height, 1)) | (row == begin[box])
+        value = points[sort, axis]
+        inseparable = between[box] & (value == np.roll(value, 1)) | (row == begin[box])
         steps = np.where(inseparable, 2 * len(xyz), 2 * np.abs(away) + (away < 0))
         nearest = np.minimum.reduceat(steps, begin)
         half += np.where(nearest % 2, -1, 1) * (nearest // 2)
