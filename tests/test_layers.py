@@ -21,6 +21,7 @@ LAYERS = (
     ("task",),
     ("fitment",),
     ("workbook", "macros"),
+    ("study",),
     ("view",),
     ("commands",),
     ("cli", "live"),
