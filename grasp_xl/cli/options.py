@@ -133,7 +133,8 @@ def _diameters(text: str) -> Diameters:
     return Diameters(ends[0] - DIAMETER_TOLERANCE_MM, ends[0] + DIAMETER_TOLERANCE_MM)
 
 
-def _start(text: str) -> str:
+def a_start(text: str) -> str:
+    """Read which chromosome a run starts from."""
     if text in STARTS:
         return text
     raise refused("--start", text, " or ".join(STARTS))
@@ -281,7 +282,7 @@ OneIn = Annotated[
 NoElitism = Annotated[bool, typer.Option("--no-elitism", help="Mutate child 1 too.")]
 Start = Annotated[
     str | None,
-    with_value("--start", _start, "user|random", "The initial chromosome (default user)."),
+    with_value("--start", a_start, "user|random", "The initial chromosome (default user)."),
 ]
 StallCount = Annotated[
     int | None,

@@ -21,6 +21,7 @@ from grasp_xl.cli.front import front
 from grasp_xl.cli.new import new
 from grasp_xl.cli.run import run
 from grasp_xl.cli.solve import solve
+from grasp_xl.cli.study import study
 from grasp_xl.cli.view import view
 from grasp_xl.errors import GraspError, InputError, OutputError, UsageError
 
@@ -134,5 +135,5 @@ def _about(
         raise typer.Exit
 
 
-for _command in (check, new, evaluate, run, solve, front, fit, elements, view, excel):
+for _command in (check, new, evaluate, run, solve, front, study, fit, elements, view, excel):
     app.command()(_command)

@@ -50,6 +50,7 @@ PLACE_DECIMALS, AREA_DECIMALS = 6, 3
 SHOWN_MM = 0.05
 """How far the outlines of the sheet ``Part``, which are only looked at, stray from those in use."""
 
+USUAL_PITCH_MM = 10.0
 USUAL_COUNT = (1, 5)
 """Fewest and most elements of a kind (section 4.1)."""
 
@@ -146,17 +147,28 @@ def fit_file(request: Request, output: Path, *, force: bool) -> FittedPart:
     suffixes = [EXPORT_SUFFIX]
     check_target(output, request.path, in_place=False, force=force, suffixes=suffixes)
     lost = replaced(Output(output, force=force))
+    part, fitted = fit_part(request)
+    fitted = replace(fitted, notes=(*lost, *fitted.notes))
+    save(export_workbook(fitted.space, _record(request, part, fitted)).content, output)
+    return FittedPart(part, fitted)
+
+
+def fit_part(request: Request) -> tuple[CadPart, Fitted]:
+    """Fit elements on a part.
+
+    Raises
+    ------
+    UsageError, InputError
+        If something that was asked for cannot be.
+    """
     fitment = _fitment(request)
     part = read_part(request.path, request.reading)
     try:
-        fitted = fit(part, fitment, request.mass.of(part))
+        return part, fit(part, fitment, request.mass.of(part))
     except GraspError as error:
         for note in part.notes:  # they may say why
             error.add_note(str(note))
         raise
-    fitted = replace(fitted, notes=(*lost, *fitted.notes))
-    save(export_workbook(fitted.space, _record(request, part, fitted)).content, output)
-    return FittedPart(part, fitted)
 
 
 def _record(request: Request, part: CadPart, fitted: Fitted) -> PartRecord:

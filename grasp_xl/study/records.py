@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Self
 
-from grasp_xl.errors import InputError, OutputError
+from grasp_xl.errors import InputError, OutputError, Problem
 from grasp_xl.study.trial import Record
 
 SUFFIX = ".runs"
@@ -18,6 +18,7 @@ SUFFIX = ".runs"
 APPLICATION_ID = 0x67727370
 """By which our file is known from other SQLite databases."""
 
+MAGIC = b"SQLite format 3\0"
 SCHEMA = "CREATE TABLE IF NOT EXISTS runs (key TEXT PRIMARY KEY, record BLOB NOT NULL)"
 
 
@@ -29,6 +30,11 @@ def records_path(study: Path) -> Path:
 def run_key(fingerprint: str, seed: int, scenario: str) -> str:
     """Return the key of a run: two runs with the same one have the same outcome."""
     return f"{fingerprint}/{scenario}/{seed}"
+
+
+def _is_database(path: Path) -> bool:
+    with path.open("rb") as file:
+        return file.read(len(MAGIC)) == MAGIC
 
 
 class Records:
@@ -49,6 +55,8 @@ class Records:
     def __init__(self, path: Path) -> None:
         self._path = path
         with self._told():
+            if path.exists() and path.stat().st_size and not _is_database(path):
+                raise sqlite3.DatabaseError  # SQLite takes a short file for an empty one
             self._base = sqlite3.connect(path, isolation_level=None)
             (found,) = self._base.execute("PRAGMA application_id").fetchone()
             tables = self._base.execute("SELECT name FROM sqlite_master").fetchall()
@@ -63,7 +71,16 @@ class Records:
         return self
 
     def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the file; runs that were put are in it already."""
         self._base.close()
+
+    def clear(self) -> None:
+        """Forget all runs."""
+        with self._told():
+            self._base.execute("DELETE FROM runs")
 
     def __len__(self) -> int:
         with self._told():
@@ -101,8 +118,6 @@ class Records:
                 hint="Look whether the disk is full or another study is using the file",
             ) from error
         except (sqlite3.DatabaseError, ValueError, KeyError, zipfile.BadZipFile) as error:
-            raise InputError(
-                f"{name}: found a file that holds no runs, expected those of this study.",
-                where=name,
-                hint="Move it elsewhere, or name another study with -o",
-            ) from error
+            hint = "move it elsewhere, or name another study with -o"
+            problem = Problem(name, "a file that holds no runs", "those of this study", hint)
+            raise InputError([problem]) from error

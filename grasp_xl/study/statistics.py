@@ -84,8 +84,8 @@ def midranks(values: Sequence[float]) -> tuple[list[float], list[int]]:
 
 
 def _counted(ranks: Sequence[float], m: int, u: float) -> float:
-    """Count the ways to choose m ranks whose sum is as far from the middle; doubled ranks, whole."""
-    twice = [round(2 * rank) for rank in ranks]
+    """Count the ways to choose m ranks whose sum is as far from the middle."""
+    twice = [round(2 * rank) for rank in ranks]  # whole numbers also where ranks are tied
     total = sum(twice)
     ways = np.zeros((m + 1, total + 1))  # whole numbers, exact below 2^53
     ways[0, 0] = 1.0

@@ -19,7 +19,7 @@ from grasp_xl.study.statistics import holm
 ALPHA = 0.05
 """Level of the tests, over all cases of a study."""
 
-SMALL, MEDIUM, LARGE = 0.11, 0.28, 0.43
+SMALL, MEDIUM, LARGE = 0.12, 0.28, 0.42
 """Effect sizes from which on one is called small, medium or large (Vargha and Delaney 2000)."""
 
 Look = Literal["text", "count", "value", "percent", "ratio"]
@@ -30,10 +30,14 @@ Value = str | float | int | None
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A column of the summary: its title, and how its values are shown."""
+    """A column of the summary: its title, how its values are shown, a short title.
+
+    Columns without a short title are left out where there is little room.
+    """
 
     title: str
     look: Look
+    short: str
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -78,19 +82,22 @@ WORDS: dict[Scenario, str] = {"random": "random start", "user": "user-defined st
 
 def columns(study: Study) -> list[Column]:
     """Return the columns of the summary."""
-    proved = [Column("Proved optimum", "value"), Column("Reached it", "percent")]
+    proved = [
+        Column("Proved optimum", "value", "optimum"),
+        Column("Reached it", "percent", "reached"),
+    ]
     return [
-        Column("Case", "text"),
-        Column("Start", "text"),
-        Column("Runs", "count"),
-        Column("Benchmark", "value"),
-        Column("Best", "value"),
-        Column("Median", "value"),
-        Column("Worst", "value"),
+        Column("Case", "text", "case"),
+        Column("Start", "text", "start"),
+        Column("Runs", "count", "runs"),
+        Column("Benchmark", "value", ""),
+        Column("Best", "value", "best"),
+        Column("Median", "value", "median"),
+        Column("Worst", "value", "worst"),
         *(proved if study.proves else []),
-        Column("Generations to within 1 %", "count"),
-        Column("p (Holm)", "ratio"),
-        Column("Effect size", "ratio"),
+        Column("Generations to within 1 %", "count", "near at"),
+        Column("p (Holm)", "ratio", ""),
+        Column("Effect size", "ratio", ""),
     ]
 
 
@@ -174,9 +181,9 @@ def _behaviour(study: Study) -> str:
         rows_ = covers(terms)
         best = int((rows_ == np.arange(len(terms))).sum())
         told = (
-            f"{case.case.label}: the worst run is {percent(spread)} above the best; {case.alike} of "
-            f"{len(case.outcomes)} runs ended in the grasp of another one or in its mirror image; "
-            f"{best} different grasps are dominated by no other run's"
+            f"{case.case.label}: the worst run is {percent(spread)} above the best; "
+            f"{case.alike} of {len(case.outcomes)} runs ended in the grasp of another one or in "
+            f"its mirror image; grasps that no other run's dominates: {best}"
         )
         reached = case.reached()
         if reached is not None:
@@ -204,9 +211,11 @@ def _starts(study: Study) -> str:
             )
     return " ".join(
         [
-            "Mann-Whitney U test of what the runs ended with, two-sided, p-values corrected for "
-            "the number of cases (Holm); the effect size is the rank-biserial correlation, "
-            "negative where the random start ends lower.",
+            (
+                "Mann-Whitney U test of what the runs ended with, two-sided, p-values corrected "
+                "for the number of cases (Holm); the effect size is the rank-biserial "
+                "correlation, negative where the random start ends lower."
+            ),
             *sentences,
         ]
     )

@@ -12,7 +12,7 @@ from grasp_xl.workbook.styles import Style
 from grasp_xl.workbook.table import DASH
 from grasp_xl.workbook.written import CellValue
 
-LABELS = {10_000: "Gen: 10k", 50_000: "Gen: 50k"}
+SHORT = {10_000: "Gen: 10k", 50_000: "Gen: 50k"}
 COLUMNS = ("Grasp", "FoS", "Cost", "Moment", "Deviation", "Structure", "Divergence")
 LOOKS = (
     Style.RATIO,
@@ -42,7 +42,7 @@ def write_fitness_table(pen: Pen, result: Result, proved: Proved | None) -> None
     rows = [(BENCHMARK, result.benchmark)]
     for generation in result.report_generations():
         grasp = evaluate(result.space, result.rules, result.at_generation(generation))
-        rows.append((LABELS.get(generation, f"Gen: {generation}"), grasp))
+        rows.append((generation_label(generation), grasp))
     if result.best:
         rows.append(("Best", result.best))
     if proved and proved.grasp:
@@ -55,6 +55,11 @@ def write_fitness_table(pen: Pen, result: Result, proved: Proved | None) -> None
     pen.widths(0, 17, *[14] * (len(COLUMNS) - 1), 3, 34, 28)
     columns = WIDTH if proved else len(COLUMNS)
     pen.print_pages(Area(FITNESS_TABLE, 0, 0, 3 + max(len(rows), lines), columns))
+
+
+def generation_label(generation: int) -> str:
+    """Return what a row of the table is called."""
+    return SHORT.get(generation, f"Gen: {generation}")
 
 
 def _write_proof(pen: Pen, result: Result, proved: Proved) -> int:

@@ -3,24 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from grasp_xl.search.result import Result, Rows, gene_columns
+from grasp_xl.workbook.course_chart import (
+    CHART_COLUMNS,
+    CHART_ROWS,
+    COURSE,
+    DASHED,
+    PROVED_LINE,
+    Line,
+    course_chart,
+)
 from grasp_xl.workbook.layout import HISTORY, HISTORY_ROW, KINDS, Area
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.proved import NOT_PROVED, PROVED_BOUND, Proved, charted
 from grasp_xl.workbook.result_title import write_result_title
-from grasp_xl.workbook.styles import BLUE, GREEN, GREY, Style
+from grasp_xl.workbook.styles import Style
 from grasp_xl.workbook.table import (
     CRITERIA,
     CRITERIA_WIDTHS,
     GENE_WIDTH,
     GENERATION_WIDTH,
-    GRID,
     add_table,
     gene_labels,
     gene_styles,
@@ -39,25 +46,6 @@ The charts' ranges have room for as many, so that a run in an open workbook need
 
 DRAWN_DIGITS = 6
 """Decimals of what charts draw: else an axis might show only the rounding of equal values."""
-
-COURSE = {"color": BLUE, "width": 1.75}
-DASHED = {"color": GREY, "width": 1.5, "dash_type": "dash"}
-PROVED_LINE = {"color": GREEN, "width": 1.75, "dash_type": "long_dash"}
-"""Looks of the lines."""
-
-CHART_WIDTH, CHART_HEIGHT = 560, 295
-CHART_COLUMNS, CHART_ROWS = 18, 16
-"""Columns that two charts take side by side, and rows that one takes."""
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """One line of a chart: its name in the legend or the cell with it, its data, its look."""
-
-    name: str | list[Any]
-    x: list[Any]
-    y: list[Any]
-    look: dict[str, Any]
 
 
 def write_history(
@@ -90,7 +78,7 @@ def write_history(
             Line("Fittest", *_column(steps, number), COURSE),
             Line("Benchmark", *_column(benchmark, number), DASHED),
         ]
-        chart = _chart(book, title, unit, [*lines, best[number - 1]])
+        chart = course_chart(book, title, unit, [*lines, best[number - 1]])
         row = HISTORY_ROW + 1 + CHART_ROWS * ((number - 1) // 2)
         column = len(labels) + 1 + CHART_COLUMNS // 2 * ((number - 1) % 2)
         pen.insert_chart(row, column, chart)
@@ -190,35 +178,3 @@ def _column(area: Area, number: int) -> tuple[list[Any], list[Any]]:
         [area.sheet, area.row, area.column, last, area.column],
         [area.sheet, area.row, area.column + number, last, area.column + number],
     )
-
-
-def _chart(
-    book: Any,  # noqa: ANN401 (untyped library)
-    title: str,
-    unit: str,
-    lines: Sequence[Line],
-) -> Any:  # noqa: ANN401 (untyped library)
-    chart = book.add_chart({"type": "scatter", "subtype": "straight"})
-    for line in lines:
-        chart.add_series(
-            {
-                "name": line.name,
-                "categories": line.x,
-                "values": line.y,
-                "line": line.look,
-            }
-        )
-    chart.set_title({"name": f"{title} vs Generation Number", "name_font": {"size": 11}})
-    chart.set_x_axis(
-        {
-            "name": "Generation",
-            "log_base": 10,
-            "min": 1,
-            "major_gridlines": GRID,
-            "label_position": "low",
-        }
-    )
-    chart.set_y_axis({"name": unit, "major_gridlines": GRID})
-    chart.set_legend({"position": "bottom"})
-    chart.set_size({"width": CHART_WIDTH, "height": CHART_HEIGHT})
-    return chart

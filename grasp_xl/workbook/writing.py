@@ -84,7 +84,7 @@ def full_workbook(
     plan = Layout(task.space.gene_slots, task.settings.children)
 
     file = io.BytesIO()
-    book = _new_book(file)
+    book = new_book(file)
     formats = Formats(book)
     run = (
         f"Seed {task.settings.seed}, {result.state.generation:,} generations, "
@@ -159,7 +159,7 @@ def _still_listed(picks: Picks, result: Result, trade_offs: TradeOffs | None) ->
 def export_workbook(space: OptionSpace, part: PartRecord | None = None) -> WrittenBook:
     """Write an option space as CAD exports it, values only; and the sheet ``Part``, if given."""
     file = io.BytesIO()
-    book = _new_book(file)
+    book = new_book(file)
     formats = Formats(book)
     pens = [Pen(book, formats, layout.OPTION_SPACE)]
     write_option_space(pens[0], space, live=False)
@@ -171,7 +171,8 @@ def export_workbook(space: OptionSpace, part: PartRecord | None = None) -> Writt
     return WrittenBook(stamped(file.getvalue()), {pen.name: pen.written for pen in pens}, {})
 
 
-def _new_book(file: io.BytesIO) -> xlsxwriter.Workbook:
+def new_book(file: io.BytesIO) -> xlsxwriter.Workbook:
+    """Begin a workbook in our font and by our name, in which text is never taken for a formula."""
     book = xlsxwriter.Workbook(
         file,
         {
