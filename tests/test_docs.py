@@ -209,6 +209,8 @@ def test_json_has_the_documented_keys(folder: Path, capsys: pytest.CaptureFixtur
     assert set(told(*fit, "--list-faces")) == keys_of("JSON of fit --list-faces")
     front = told("front", book, "--time-limit", "0")
     assert set(front) == keys_of("JSON of front")
+    study = ("study", book, "-o", str(folder / "study-json.xlsx"), "--runs", "1")
+    assert set(told(*study, "--generations", "9")) == keys_of("JSON of study")
     added = {"error", "where", "hint"}
     assert set(told("check", book, "--fos", "99")) == keys_of("JSON of check") | added
     assert set(told("solve", book, "--fos", "99")) == keys_of("JSON of solve") | added

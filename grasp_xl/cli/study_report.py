@@ -68,7 +68,8 @@ def study(studied: Studied, output: Path) -> None:
         before = title
     OUT.print(table)
     for answer in answers(found):
-        line(f"{answer.question}\n  {answer.answer}")
+        told = "".join(f"\n  {each}" for each in answer.answer.splitlines())
+        line(f"{answer.question}{told}")
     done = f"{found.done:,} of {len(found.plan):,} runs done"
     if studied.known:
         done += f", {studied.known:,} of them before"

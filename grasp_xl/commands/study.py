@@ -20,16 +20,18 @@ from grasp_xl.search.exact import ExactSettings, Proof, solve
 from grasp_xl.search.stop import Interrupt
 from grasp_xl.search.warm import load_exact_search
 from grasp_xl.study.book import study_workbook
+from grasp_xl.study.data_file import SUFFIXES, check_format, write_data
 from grasp_xl.study.description import PARAMETERS, PITCH, Description, Value
 from grasp_xl.study.execution import Execute
 from grasp_xl.study.outcome import Measuring
+from grasp_xl.study.page import MARK, study_page
 from grasp_xl.study.plan import SCENARIOS, Case, Plan, Trial
 from grasp_xl.study.records import Records, records_path, run_key
 from grasp_xl.study.summary import Study
 from grasp_xl.study.trial import Record, Work, run_search
 from grasp_xl.task import Parameters, Task, settle
 from grasp_xl.workbook.book import Book, read_book
-from grasp_xl.workbook.saving import check_place, check_target, save
+from grasp_xl.workbook.saving import check_place, check_target, refuse_theirs, save
 
 RUNS, SEED = 2, 1
 """Of a study that says nothing else: two runs of each start, as in chapter 6."""
@@ -149,6 +151,10 @@ def study_files(
         study = _measured(plan, runs(), description, interrupt)
         links = _write_workbooks(plan, books, works, runs(), output, interrupt)
         save(study_workbook(study, links), output.path)
+        if output.page:
+            save(study_page(study).encode(), output.page)
+        if output.data:
+            write_data(output.data, plan, runs())
     seconds = time.perf_counter() - clock
     return Studied(study, known, (*lost, *warnings), seconds, interrupt.asked)
 
@@ -168,6 +174,12 @@ def _check_places(description: Description, output: StudyOutput) -> list[Problem
             where="--workbooks",
             hint="Name a folder, or one that is yet to be made",
         )
+    if output.page:
+        check_place(output.page, [".html"], force=output.force, option="--html")
+        refuse_theirs(output.page, [MARK], "study", force=output.force, option="--html")
+    if output.data:
+        check_place(output.data, SUFFIXES, force=output.force, option="--data")
+        check_format(output.data)
     return replaced(Output(output.path, force=output.force))
 
 

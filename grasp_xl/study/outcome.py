@@ -29,7 +29,7 @@ REACHED = 1e-9
 """A run reached the best value where it is no more than this share above it."""
 
 FEW_RUNS = 8
-FINE, COARSE = 40, 8
+FINE, COARSE = 40, 5
 """Points a decade at which the courses are drawn: of few runs of a case, and of many."""
 
 Images = tuple[tuple[int, ...], ...]
@@ -206,7 +206,7 @@ def drawn_generations(generations: int, runs: int) -> IntArray:
     Examples
     --------
     >>> drawn_generations(100, 500).tolist()
-    [1, 2, 3, 4, 6, 7, 10, 13, 18, 24, 32, 42, 56, 75, 100]
+    [1, 2, 3, 4, 6, 10, 16, 25, 40, 63, 100]
     """
     last = max(1, generations)
     points = FINE if runs <= FEW_RUNS else COARSE

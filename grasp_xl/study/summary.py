@@ -71,7 +71,7 @@ class Study:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """A research question, and what the study says of it."""
+    """A research question, and what the study says of it: a line a case."""
 
     question: str
     answer: str
@@ -189,7 +189,7 @@ def _behaviour(study: Study) -> str:
         if reached is not None:
             told += f"; {percent(reached)} reached the proved optimum"
         sentences.append(told + ".")
-    return " ".join(sentences) or "No run ended in a feasible grasp."
+    return "\n".join(sentences) or "No run ended in a feasible grasp."
 
 
 def _starts(study: Study) -> str:
@@ -209,7 +209,7 @@ def _starts(study: Study) -> str:
             sentences.append(
                 f"{told}: runs from the {lower} end lower, a {_size(effect)} difference."
             )
-    return " ".join(
+    return "\n".join(
         [
             (
                 "Mann-Whitney U test of what the runs ended with, two-sided, p-values corrected "

@@ -21,9 +21,10 @@ STYLES: dict[Look, Style] = {
     "ratio": Style.RATIO,
 }
 CASE_WIDTH, WIDTH = 34, 13
-ANSWER_LINES = 3
 LINE_LETTERS = 150
 """Letters that a line of an answer holds, over all columns."""
+MOST_HEIGHT = 409.0
+"""Of a row, in Excel (points)."""
 
 
 def write_summary(pen: Pen, study: Study) -> None:
@@ -49,8 +50,8 @@ def write_summary(pen: Pen, study: Study) -> None:
         pen.span(place, answer.question, Style.HEADING)
         told = Area(pen.name, row + 1, 0, 1, len(shown))
         pen.span(told, answer.answer, Style.LOGGED)
-        lines = max(ANSWER_LINES, 1 + len(answer.answer) // LINE_LETTERS)
-        pen.sheet.set_row(row + 1, lines * ROW_HEIGHT)
+        lines = sum(1 + len(line) // LINE_LETTERS for line in answer.answer.splitlines())
+        pen.sheet.set_row(row + 1, min(MOST_HEIGHT, (1 + lines) * ROW_HEIGHT))
         row += 3
     pen.fix_row_heights()
     pen.widths(0, CASE_WIDTH, 19, *[WIDTH] * (len(shown) - 2))
