@@ -1,18 +1,19 @@
 """Running trials on a Dask cluster: workers may come, go and be killed.
 
-A trial is a function of its case's ``Work``, a seed and a start, so that it may be repeated anywhere.
-The works are scattered once; only where all workers that held one are gone it is sent again.
+A trial is a function of its case's ``Work``, a seed and a start: it may be repeated anywhere.  The
+works are scattered once; only where all workers that held one are gone it is sent again.
 """
 
 from __future__ import annotations
 
+import logging
 import math
 import queue
 import time
 import uuid
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from typing import Any, NamedTuple
 
@@ -84,18 +85,32 @@ def run_on_cluster(
         )
     from distributed import Client
 
+    connect: Any = Client
+    with _quiet():
+        try:
+            client = connect(address, timeout=CONNECT_SECONDS, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise OutputError(
+                f"No Dask scheduler answers at {address}.",
+                where="--scheduler",
+                hint="Start one with dask scheduler, and give the address that it tells",
+            ) from error
+        try:
+            _Session(client, address, works, on_record).run(trials, interrupt)
+        finally:
+            client.close(timeout=CONNECT_SECONDS)
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep Dask's own log off the terminal: what matters of it is told in sentences."""
+    log = logging.getLogger("distributed")
+    level = log.level
+    log.setLevel(logging.CRITICAL + 1)
     try:
-        client = Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise OutputError(
-            f"No Dask scheduler answers at {address}.",
-            where="--scheduler",
-            hint="Start one with dask scheduler, and give the address that it tells",
-        ) from error
-    try:
-        _Session(client, address, works, on_record).run(trials, interrupt)
+        yield
     finally:
-        client.close(timeout=CONNECT_SECONDS)
+        log.setLevel(level)
 
 
 class _Running(NamedTuple):
@@ -156,6 +171,8 @@ class _Session:
             except TimeoutError:
                 self._counted_at = -math.inf
                 return False
+            except (OSError, RuntimeError) as error:
+                raise self._gone() from error
         work = self._sent[trial.case]
         self._submitted += 1
         future = self._asked(
@@ -236,8 +253,11 @@ class _Session:
         try:
             return ask(*words, **named)
         except (OSError, RuntimeError) as error:
-            raise OutputError(
-                f"The Dask scheduler at {self._address} does not answer any more.",
-                where="--scheduler",
-                hint="Runs that are done are kept; start it again, and go on with --resume",
-            ) from error
+            raise self._gone() from error
+
+    def _gone(self) -> OutputError:
+        return OutputError(
+            f"The Dask scheduler at {self._address} does not answer any more.",
+            where="--scheduler",
+            hint="Runs that are done are kept; start it again, and go on with --resume",
+        )
