@@ -481,3 +481,43 @@ def _runs_in(path: Path) -> int:
             return base.execute("SELECT COUNT(*) FROM runs").fetchone()[0]
     except sqlite3.Error:
         return 0
+
+
+# --- the shipped study ---
+
+
+def test_the_shipped_study_is_that_of_the_program_and_the_page_quotes_it():
+    """Its first and last runs come out again with their seeds; docs/study.md has its numbers."""
+    held = CalamineWorkbook.from_path(WORKBOOKS / "study.xlsx")
+    rows = held.get_sheet_by_name("Runs").to_python()
+    first = next(number for number, row in enumerate(rows) if row[0] == "Run")
+    header = {name: number for number, name in enumerate(rows[first])}
+    listed = {row[0]: row for row in rows[first + 1 :]}
+    names = ("bracket", "door_frame", "panel", "tunnel_cover")
+    books = [WORKBOOKS / f"{name}.xlsx" for name in names]
+    plan = plan_of(*books, runs=100, generations=50_000)
+    assert [trial.label for trial in plan.trials()] == list(listed)
+    some = [trial for trial in plan.trials() if trial.number in (1, 100)]
+    records: dict[str, Record] = {}
+    run_here(
+        [Work.of(case.task) for case in plan.cases],
+        some,
+        lambda trial, record: records.__setitem__(trial.label, record),
+        Interrupt(),
+    )
+    for trial in some:
+        task, best = plan.cases[trial.case].task, records[trial.label].best_chromosome
+        assert best is not None
+        row = listed[trial.label]
+        assert row[header["Seed"]] == trial.seed
+        value = evaluate(task.space, task.rules, best).divergence
+        assert row[header["Divergence"]] == pytest.approx(value, rel=1e-12)
+    text = (WORKBOOKS.parent / "docs" / "study.md").read_text()
+    for row in held.get_sheet_by_name("Summary").to_python():
+        if row[0].startswith("P") and row[1].endswith("start"):
+            name, start = row[0].split()[1], row[1].split("-")[0].split()[0]
+            numbers = [f"{value:.4f}" for value in row[4:8]]
+            assert (
+                f"| {name} | {start} | {' | '.join(numbers)} | {row[8]:.0%}".replace("%", " %")
+                in text
+            )

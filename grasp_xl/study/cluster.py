@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 from grasp_xl import __version__
 from grasp_xl.errors import OutputError, UsageError
 from grasp_xl.search.stop import Interrupt
-from grasp_xl.study.execution import AHEAD, POLL_SECONDS, OnRecord
+from grasp_xl.study.execution import POLL_SECONDS, OnRecord
 from grasp_xl.study.plan import Trial
 from grasp_xl.study.trial import Record, Work, run_trial
 
@@ -32,6 +32,9 @@ SEND_SECONDS = 5
 
 WORKERS_SECONDS = 1.0
 """How often the workers are counted."""
+
+WAITING = 16
+"""Trials a thread that are on the way: enough to take many records at once."""
 
 MOST_KILLS = 20
 """Workers that one trial may lose before it is blamed for that."""
@@ -149,8 +152,7 @@ class _Session:
         while (trial or self._running) and not interrupt.asked:
             while trial and len(self._running) < self._capacity() and self._submit(trial):
                 trial = next(waiting, None)
-            for key in self._take_ended():
-                self._take(self._running.pop(key))
+            self._take(self._take_ended())
         self._asked(self._client.cancel, [each.future for each in self._running.values()])
 
     def _capacity(self) -> int:
@@ -158,7 +160,7 @@ class _Session:
         clock = time.monotonic()
         if clock - self._counted_at >= WORKERS_SECONDS:
             self._counted_at = clock
-            self._room = AHEAD * sum(self._asked(self._client.nthreads).values())
+            self._room = WAITING * sum(self._asked(self._client.nthreads).values())
         return self._room
 
     def _submit(self, trial: Trial) -> bool:
@@ -195,17 +197,31 @@ class _Session:
             self._capacity()  # says so if the scheduler is gone
         return [key for key in dict.fromkeys(keys) if key in self._running]
 
-    def _take(self, ended: _Running) -> None:
-        """Take the record of a trial, or send the trial again."""
-        record = self._record(ended)
-        if record is not None:
-            self._on_record(ended.trial, record)
-            return
+    def _take(self, keys: Sequence[str]) -> None:
+        """Take the records of trials that ended, or send these trials again."""
+        ended = [self._running.pop(key) for key in keys]
+        for each, record in zip(ended, self._records(ended), strict=True):
+            if record is None:
+                self._send_again(each)
+            else:
+                self._on_record(each.trial, record)
+
+    def _send_again(self, ended: _Running) -> None:
+        """Send a trial again, once a worker is there."""
         if self._sent.get(ended.trial.case) is ended.work:
             del self._sent[ended.trial.case]  # it may be gone with the worker
         while not self._submit(ended.trial):
             if self._capacity() == 0:
                 time.sleep(POLL_SECONDS)
+
+    def _records(self, ended: Sequence[_Running]) -> Iterable[Record | None]:
+        """Give the records of trials: fetched at once, or one by one where something is wrong."""
+        futures = [each.future for each in ended]
+        if all(future.status == "finished" for future in futures):
+            with suppress(Exception):  # the look at each one says what it is
+                found: list[Record] = self._client.gather(futures)
+                return found
+        return map(self._record, ended)
 
     def _record(self, ended: _Running) -> Record | None:
         """Return the record of a trial; None where it went down with its worker."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
-from grasp_xl.study.outcome import FEW_RUNS, CaseOutcome, Outcome
+from grasp_xl.study.outcome import FEW_RUNS, CaseOutcome, Outcome, evenly
 from grasp_xl.study.summary import WORDS
 from grasp_xl.workbook.course_chart import DASHED, PROVED_LINE, Line
 from grasp_xl.workbook.layout import Area
@@ -64,7 +64,7 @@ class Courses:
 
 def write_courses(pen: Pen, case: CaseOutcome) -> Courses:
     """Write the sheet, and return where its lines stand: one a run, or one a start if many."""
-    pen.write(0, 0, f"{case.case.title}: the fittest of each run", Style.TITLE)
+    pen.write(0, 0, f"{case.case.title}: the fittest of the runs that are drawn", Style.TITLE)
     labels = ["Run", "Generation", *(label for _, _, label, _ in CRITERIA)]
     pen.row(HEADER_ROW, 0, labels, Style.HEADER)
     row = HEADER_ROW + 1
@@ -91,7 +91,7 @@ def _lines(outcomes: Sequence[Outcome], *, few: bool) -> list[tuple[str, list[Ou
     if few:
         return [(outcome.trial.label, [outcome]) for outcome in outcomes]
     return [
-        (WORDS[scenario].capitalize(), list(group))
+        (WORDS[scenario].capitalize(), list(evenly(list(group))))
         for scenario, group in groupby(outcomes, key=lambda outcome: outcome.trial.scenario)
     ]
 

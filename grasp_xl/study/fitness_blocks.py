@@ -15,6 +15,9 @@ from grasp_xl.workbook.styles import Style
 from grasp_xl.workbook.table import DASH
 
 FIRST_ROW = 2
+MOST_BLOCKS = 250
+"""Runs of a start that have a table: nobody reads more, and they would fill the memory."""
+
 BESIDE = len(COLUMNS) + 1
 """Columns from one start's blocks to the other's."""
 
@@ -29,8 +32,12 @@ def write_fitness_blocks(pen: Pen, case: CaseOutcome) -> None:
     behind = FIRST_ROW
     for side, outcomes in enumerate(filter(None, sides)):
         row = FIRST_ROW
-        for outcome in outcomes:
+        for outcome in outcomes[:MOST_BLOCKS]:
             row = _write_block(pen, row, side * BESIDE, case, outcome)
+        if len(outcomes) > MOST_BLOCKS:
+            told = f"{len(outcomes) - MOST_BLOCKS:,} more runs stand on the sheet Runs alone."
+            pen.write(row, side * BESIDE, told, Style.NOTE)
+            row += 1
         behind = max(behind, row)
         pen.widths(side * BESIDE, 12, *[13.5] * (len(COLUMNS) - 1), 3)
     pen.fix_row_heights()

@@ -32,6 +32,9 @@ FEW_RUNS = 8
 FINE, COARSE = 40, 5
 """Points a decade at which the courses are drawn: of few runs of a case, and of many."""
 
+MOST_DRAWN = 100
+"""Runs of a start that are drawn: more would make one grey band of megabytes."""
+
 Images = tuple[tuple[int, ...], ...]
 """Sorted active 1-based indices of each kind."""
 
@@ -212,6 +215,11 @@ def drawn_generations(generations: int, runs: int) -> IntArray:
     points = FINE if runs <= FEW_RUNS else COARSE
     count = math.ceil(points * math.log10(last)) + 1 if last > 1 else 1
     return np.unique(np.rint(np.geomspace(1, last, count)).astype(np.int64))
+
+
+def evenly(outcomes: Sequence[Outcome]) -> Sequence[Outcome]:
+    """Return at most ``MOST_DRAWN`` of a start's runs, evenly chosen: those that are drawn."""
+    return outcomes[:: max(1, math.ceil(len(outcomes) / MOST_DRAWN))]
 
 
 def reported_generations(generations: int) -> IntArray:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from grasp_xl.space import FloatArray, IntArray
-from grasp_xl.study.outcome import FEW_RUNS, CaseOutcome, Ending, Outcome
+from grasp_xl.study.outcome import FEW_RUNS, CaseOutcome, Ending, Outcome, evenly
 from grasp_xl.study.plan import SCENARIOS
 from grasp_xl.study.plot import Curve, plot
 from grasp_xl.study.summary import WORDS, Look, Study, Value, answers, columns, rows
@@ -29,8 +29,6 @@ LEFT = ' class="text"'
 STYLE = Path(__file__).parent / "study.css"
 MOST_ENDINGS = 30
 MOST_LABELS = 8
-MOST_CURVES = 100
-"""Runs of a start that are drawn, evenly chosen: more would make one grey band of megabytes."""
 DIGITS = (4, 2, 2, 4, 2, 3)
 """Decimals of FoS, cost, moment, deviation, structure and divergence, as in tables 4 and 5."""
 
@@ -153,14 +151,15 @@ def _curves(case: CaseOutcome) -> tuple[str, list[Drawn]]:
             mine = [each for each in case.outcomes if each.trial.scenario == scenario]
             if not mine:
                 continue
-            step = math.ceil(len(mine) / MOST_CURVES)
-            curves += [(f"many s{number}", *_course(case, each)) for each in mine[::step]]
+            some = evenly(mine)
+            curves += [(f"many s{number}", *_course(case, each)) for each in some]
             medians.append((f"median s{number}", case.generations, _median(mine)))
             entries.append(
                 (f"{WORDS[scenario].capitalize()}: runs, and their median", f"s{number}")
             )
-            if step > 1:
-                note = f'<p class="soft">One of {step} runs is drawn; the medians are of all.</p>'
+            if len(some) < len(mine):
+                told = f"{len(some):,} of {len(mine):,} runs of a start are drawn"
+                note = f'<p class="soft">{told}; the medians are of all.</p>'
         curves += medians
     for name, look, values in _levels(case):
         ends = np.array([1, max(10, case.case.task.generations)])
