@@ -6,11 +6,13 @@ import dataclasses
 import itertools
 import json
 import math
+import re
 import signal
 import sqlite3
 import subprocess
 import sys
 import time
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -343,6 +345,25 @@ def test_the_same_study_gives_the_same_file(tmp_path):
     assert first == cells(tmp_path / "c.xlsx")
 
 
+@pytest.mark.parametrize("runs", [2, 5])
+def test_charts_show_all_runs_and_the_benchmark(tmp_path, runs):
+    """A case has six charts with a logarithmic axis: a line a run, of more than eight one a start."""
+    run_study(tmp_path / "a.xlsx", "--runs", str(runs))
+    if runs == 2:
+        own = [[f"P{p}S{s}R{r}" for s in (1, 2) for r in (1, 2)] for p in (1, 2)]
+    else:
+        own = [["Random start", "User-defined start"]] * 2
+    expected = [sorted([*names, "Benchmark", "Proved optimum"]) for names in own for _ in range(6)]
+    found = []
+    with zipfile.ZipFile(tmp_path / "a.xlsx") as book:
+        charts = [name for name in book.namelist() if name.startswith("xl/charts/chart")]
+        for name in charts:
+            text = book.read(name).decode()
+            assert '<c:logBase val="10"/>' in text
+            found.append(sorted(re.findall(r"<c:ser>.*?<c:tx><c:v>(.*?)</c:v>", text)))
+    assert sorted(found) == sorted(expected)
+
+
 def test_finished_runs_are_not_repeated(tmp_path, capsys):
     """--resume takes the runs that are kept, and only the missing ones are run."""
     run_study(tmp_path / "a.xlsx", "--runs", "1")
@@ -451,6 +472,14 @@ def test_everything_wrong_in_a_description_is_named_at_once(tmp_path):
             *(run_here, Interrupt()),
         )
     assert [path.name for path in tmp_path.iterdir()] == ["bad.toml"]
+
+
+def test_a_study_that_cannot_run_leaves_nothing(tmp_path, capsys):
+    """No generations, a scheduler that is not there: a sentence, and no file."""
+    for words in (["--generations", "0"], ["--scheduler", "nonsense://x"]):
+        assert main(["study", str(BRACKET), "-o", str(tmp_path / "a.xlsx"), *words]) in (2, 3)
+        assert "Traceback" not in capsys.readouterr().err
+        assert not list(tmp_path.iterdir())
 
 
 def test_ctrl_c_writes_what_is_done_and_a_resume_completes_it(tmp_path):

@@ -227,6 +227,12 @@ def _settle(
         combined = list(_combinations(varied, fitted=not isinstance(source, Book)))
         for variant, values in enumerate(combined, 1):
             task, book = _task(source, options, values, interrupt)
+            if task.generations < 1:
+                raise UsageError(
+                    f"{name}: found {task.generations} generations, expected 1 or more.",
+                    where="--generations",
+                    hint="A run without generations has nothing to compare",
+                )
             told = tuple((axis, values[axis].told) for axis in axes if axis in values)
             case = Case(part, variant if len(combined) > 1 else 0, name, told, task)
             cases.append(case)

@@ -74,8 +74,11 @@ class Records:
         self.close()
 
     def close(self) -> None:
-        """Close the file; runs that were put are in it already."""
+        """Close the file, and take it away if it holds nothing."""
+        empty = len(self) == 0
         self._base.close()
+        if empty:
+            self._path.unlink(missing_ok=True)
 
     def clear(self) -> None:
         """Forget all runs."""
