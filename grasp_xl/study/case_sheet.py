@@ -36,8 +36,7 @@ def write_case(pen: Pen, book: Any, case: CaseOutcome, courses: Courses) -> None
         pen.insert_chart(row, CHART_COLUMNS // 2 * (number % 2), chart)
     genes = gene_labels(case.case.task.space)
     labels = ["Grasp", "Image", "Runs", "Divergence", "Optimum", *genes, "Which runs"]
-    ended = f"{case.alike} of {len(case.outcomes)} runs ended in the grasp of another, or its image"
-    pen.write(TABLE_ROW - 1, 0, f"CONVERGENCE: {ended}", Style.TITLE)
+    pen.write(TABLE_ROW - 1, 0, f"CONVERGENCE: {case.convergence}", Style.TITLE)
     pen.row(TABLE_ROW, 0, labels, Style.STACKED_HEADER)
     endings = case.endings[:MOST_ENDINGS]
     for row, ending in enumerate(endings, TABLE_ROW + 1):
@@ -56,20 +55,16 @@ def write_case(pen: Pen, book: Any, case: CaseOutcome, courses: Courses) -> None
 
 def _write_ending(pen: Pen, row: int, case: CaseOutcome, ending: Ending) -> None:
     grasp, space = ending.grasp, case.case.task.space
-    labels = [outcome.trial.label for outcome in ending.outcomes]
-    told = ", ".join(labels[:MOST_LABELS])
-    if len(labels) > MOST_LABELS:
-        told += f" and {len(labels) - MOST_LABELS:,} more"
     optimum = (YES if ending.optimal else NO) if case.optimum is not None else "-"
     cells: list[tuple[CellValue, Style]] = [
         (ending.number, Style.MARK),
         (ending.relation or "-", Style.CENTRED),
-        (len(labels), Style.COUNT),
+        (len(ending.outcomes), Style.COUNT),
         (grasp.divergence, Style.DIVERGENCE),
         (optimum, Style.CENTRED),
     ]
     genes = zip(grasp.chromosome.genes.ravel().tolist(), gene_labels(space), strict=True)
     shown = [None if gene == BLANK_GENE else shown_gene(label, gene) for gene, label in genes]
     cells += list(zip(shown, gene_styles(space), strict=True))
-    for column, (value, style) in enumerate([*cells, (told, Style.TEXT)]):
+    for column, (value, style) in enumerate([*cells, (ending.told(MOST_LABELS), Style.TEXT)]):
         pen.write(row, column, value, style)

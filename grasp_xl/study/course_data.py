@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
-from grasp_xl.study.outcome import FEW_RUNS, CaseOutcome, Outcome, evenly
+from grasp_xl.study.outcome import FEW_RUNS, CaseOutcome, Level, Outcome, evenly
 from grasp_xl.study.summary import WORDS
 from grasp_xl.workbook.course_chart import DASHED, PROVED_LINE, Line
 from grasp_xl.workbook.layout import Area
@@ -77,9 +77,10 @@ def write_courses(pen: Pen, case: CaseOutcome) -> Courses:
             row = _write_course(pen, row, case, outcome)
         look = {"color": next(colours), "width": WIDE if few else NARROW}
         blocks.append(_Block(name, first, row - 2, look))
-    for name, values, look in _levels(case):
-        _write_level(pen, row, name, values, case)
-        blocks.append(_Block(name, row, row + 1, look))
+    for level in case.levels:
+        _write_level(pen, row, level, case)
+        look = PROVED_LINE if level.proved else DASHED
+        blocks.append(_Block(level.name, row, row + 1, look))
         row += LEVEL_ROWS
     pen.sheet.freeze_panes(HEADER_ROW + 1, 1)
     pen.widths(0, 14, *[12] * (COLUMNS - 1))
@@ -96,17 +97,6 @@ def _lines(outcomes: Sequence[Outcome], *, few: bool) -> list[tuple[str, list[Ou
     ]
 
 
-def _levels(case: CaseOutcome) -> list[tuple[str, list[float], dict[str, Any]]]:
-    """Return the benchmark, and the best grasp of all if the exact search found one."""
-    grasp = case.case.task.benchmark
-    levels = [("Benchmark", [grasp.fos, *grasp.terms, grasp.divergence], DASHED)]
-    if case.proof and case.proof.designs:
-        grasp = case.proof.designs[0]
-        name = "Proved optimum" if case.optimum is not None else "Best known"
-        levels.append((name, [grasp.fos, *grasp.terms, grasp.divergence], PROVED_LINE))
-    return levels
-
-
 def _write_course(pen: Pen, row: int, case: CaseOutcome, outcome: Outcome) -> int:
     """Write a run's course; return the row behind the empty one that follows it."""
     for generation, values in zip(case.generations.tolist(), outcome.course.tolist(), strict=True):
@@ -118,10 +108,10 @@ def _write_course(pen: Pen, row: int, case: CaseOutcome, outcome: Outcome) -> in
     return row + 1
 
 
-def _write_level(pen: Pen, row: int, name: str, values: Sequence[float], case: CaseOutcome) -> None:
+def _write_level(pen: Pen, row: int, level: Level, case: CaseOutcome) -> None:
     for offset, generation in enumerate((1, max(10, case.case.task.generations))):
-        pen.write(row + offset, RUN_COLUMN, name, Style.TEXT)
-        _write_row(pen, row + offset, generation, values)
+        pen.write(row + offset, RUN_COLUMN, level.name, Style.TEXT)
+        _write_row(pen, row + offset, generation, level.values)
 
 
 def _write_row(pen: Pen, row: int, generation: int, values: Sequence[float]) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from grasp_xl.study.outcome import CaseOutcome, Outcome
 from grasp_xl.study.plan import SCENARIOS
 from grasp_xl.study.summary import WORDS
-from grasp_xl.workbook.fitness_sheet import BENCHMARK, COLUMNS, LOOKS, generation_label
+from grasp_xl.workbook.fitness_sheet import COLUMNS, LOOKS, generation_label
 from grasp_xl.workbook.layout import Area
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.styles import Style
@@ -51,10 +51,7 @@ def _write_block(pen: Pen, row: int, left: int, case: CaseOutcome, outcome: Outc
     title = f"{trial.label}: {WORDS[trial.scenario]}, run {trial.number}, seed {trial.seed}"
     pen.span(Area(pen.name, row, left, 1, len(COLUMNS)), title, Style.HEADING)
     pen.row(row + 1, left, COLUMNS, Style.HEADER)
-    grasp = case.case.task.benchmark
-    rows: list[tuple[str, Sequence[float]]] = [
-        (BENCHMARK, [grasp.fos, *grasp.terms, grasp.divergence])
-    ]
+    rows: list[tuple[str, Sequence[float]]] = [(case.benchmark.name, case.benchmark.values)]
     rows += [
         (generation_label(generation), values)
         for generation, values in zip(

@@ -97,6 +97,26 @@ class Ending:
     outcomes: tuple[Outcome, ...]
     optimal: bool
 
+    def told(self, most: int) -> str:
+        """Name the runs, at most so many; the others are counted."""
+        labels = [outcome.trial.label for outcome in self.outcomes]
+        more = f" and {len(labels) - most:,} more" if len(labels) > most else ""
+        return ", ".join(labels[:most]) + more
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """A grasp that runs are compared with: what it is, its FoS, terms and divergence."""
+
+    name: str
+    values: tuple[float, ...]
+    proved: bool
+
+    @classmethod
+    def of(cls, name: str, grasp: Grasp, *, proved: bool) -> Level:
+        """Return the level of a grasp."""
+        return cls(name, (grasp.fos, *grasp.terms, grasp.divergence), proved)
+
 
 @dataclass(frozen=True, eq=False)
 class CaseOutcome:
@@ -179,6 +199,26 @@ class CaseOutcome:
                 relation = _relation(maps, first, active)
                 endings.append(Ending(number, relation, grasp, tuple(outcomes), optimal))
         return tuple(endings)
+
+    @property
+    def benchmark(self) -> Level:
+        """The grasp that every run is to beat."""
+        return Level.of("Benchmark", self.case.task.benchmark, proved=False)
+
+    @property
+    def levels(self) -> list[Level]:
+        """The benchmark, and what the exact search found where it was asked."""
+        levels = [self.benchmark]
+        if self.proof and self.proof.designs:
+            name = "Best known" if self.optimum is None else "Proved optimum"
+            levels.append(Level.of(name, self.proof.designs[0], proved=True))
+        return levels
+
+    @property
+    def convergence(self) -> str:
+        """How many runs ended in the same grasp as another, in words."""
+        total = len(self.outcomes)
+        return f"{self.alike} of {total} runs ended in the grasp of another, or its image"
 
     @property
     def alike(self) -> int:

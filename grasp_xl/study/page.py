@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from html import escape
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from grasp_xl.study.outcome import FEW_RUNS, CaseOutcome, Ending, Outcome, evenl
 from grasp_xl.study.plan import SCENARIOS
 from grasp_xl.study.plot import Curve, plot
 from grasp_xl.study.summary import WORDS, Look, Study, Value, answers, columns, rows
-from grasp_xl.workbook.fitness_sheet import BENCHMARK, COLUMNS, generation_label
+from grasp_xl.workbook.fitness_sheet import COLUMNS, generation_label
 from grasp_xl.workbook.styles import SEQUENCE
 from grasp_xl.workbook.table import CRITERIA, DASH
 
@@ -161,10 +161,11 @@ def _curves(case: CaseOutcome) -> tuple[str, list[Drawn]]:
                 told = f"{len(some):,} of {len(mine):,} runs of a start are drawn"
                 note = f'<p class="soft">{told}; the medians are of all.</p>'
         curves += medians
-    for name, look, values in _levels(case):
+    for level in case.levels:
+        look = "proved" if level.proved else "benchmark"
         ends = np.array([1, max(10, case.case.task.generations)])
-        curves.append((look, ends, np.tile(values, (2, 1))))
-        entries.append((name, look))
+        curves.append((look, ends, np.tile(level.values, (2, 1))))
+        entries.append((level.name, look))
     return _legend(entries) + note, curves
 
 
@@ -182,15 +183,6 @@ def _median(outcomes: Sequence[Outcome]) -> FloatArray:
     return np.where(np.isfinite(middle), middle, np.nan)
 
 
-def _levels(case: CaseOutcome) -> Iterator[tuple[str, str, list[float]]]:
-    grasp = case.case.task.benchmark
-    yield BENCHMARK, "benchmark", [grasp.fos, *grasp.terms, grasp.divergence]
-    if case.proof and case.proof.designs:
-        grasp = case.proof.designs[0]
-        name = "Proved optimum" if case.optimum is not None else "Best known"
-        yield name, "proved", [grasp.fos, *grasp.terms, grasp.divergence]
-
-
 def _legend(entries: Iterable[tuple[str, str]]) -> str:
     lines = []
     for name, look in entries:
@@ -202,31 +194,26 @@ def _legend(entries: Iterable[tuple[str, str]]) -> str:
 
 def _convergence(case: CaseOutcome) -> str:
     endings = case.endings[:MOST_ENDINGS]
-    ended = f"{case.alike} of {len(case.outcomes)} runs ended in the grasp of another, or its image"
     table = _table(
         ["Grasp", "Image", "Runs", "Divergence", "Optimum", "Cups", "Magnets", "Which runs"],
         (_ending(case, each) for each in endings),
     )
     left = len(case.endings) - len(endings)
     more = f'<p class="soft">{left:,} more grasps are not listed here.</p>' if left else ""
-    return f"<h3>Convergence: {ended}</h3>{table}{more}"
+    return f"<h3>Convergence: {case.convergence}</h3>{table}{more}"
 
 
 def _ending(case: CaseOutcome, ending: Ending) -> list[tuple[str, bool]]:
-    labels = [outcome.trial.label for outcome in ending.outcomes]
-    told = ", ".join(labels[:MOST_LABELS])
-    if len(labels) > MOST_LABELS:
-        told += f" and {len(labels) - MOST_LABELS:,} more"
     optimal = ("yes" if ending.optimal else "no") if case.optimum is not None else DASH
     indices = (" ".join(map(str, each)) or DASH for each in ending.grasp.chromosome.active)
     return [
         (str(ending.number), False),
         (ending.relation or DASH, True),
-        (f"{len(labels):,}", False),
+        (f"{len(ending.outcomes):,}", False),
         (f"{ending.grasp.divergence:,.3f}", False),
         (optimal, True),
         *((each, True) for each in indices),
-        (told, True),
+        (ending.told(MOST_LABELS), True),
     ]
 
 
@@ -250,10 +237,8 @@ def _typical(case: CaseOutcome, scenario: str) -> list[Outcome]:
 
 
 def _block(case: CaseOutcome, outcome: Outcome) -> str:
-    grasp, trial = case.case.task.benchmark, outcome.trial
-    lines: list[tuple[str, Sequence[float]]] = [
-        (BENCHMARK, [grasp.fos, *grasp.terms, grasp.divergence])
-    ]
+    trial = outcome.trial
+    lines: list[tuple[str, Sequence[float]]] = [(case.benchmark.name, case.benchmark.values)]
     lines += [
         (generation_label(generation), values)
         for generation, values in zip(
