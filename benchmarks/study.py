@@ -111,7 +111,7 @@ def memory(runs: int) -> None:
             "-m",
             "grasp_xl",
             "study",
-            str(SAMPLES[0]),
+            str(SAMPLES[-1]),
             "--quiet",
             "--no-prove",
             "--runs",
