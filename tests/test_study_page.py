@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from test_study import BRACKET, DOOR_FRAME, all_runs, plan_of
 
 from grasp_xl.study.outcome import Measuring
-from grasp_xl.study.page import study_page
+from grasp_xl.study.page import _median, study_page
 from grasp_xl.study.plan import Plan
-from grasp_xl.study.plot import Curve, plot, ticks
+from grasp_xl.study.plot import WIDTH, Curve, plot, ticks
 from grasp_xl.study.summary import Study, answers, rows
 
 
@@ -106,6 +106,15 @@ def test_a_hostile_name_stays_text():
     assert any(name in text for text in read.texts)
 
 
+def test_a_median_course_is_the_middle_of_its_runs():
+    """Of an even number of runs it is halfway, as in the summary; few values make none."""
+    study = study_of(plan_of(BRACKET, generations=50))
+    first = study.cases[0].outcomes[0]
+    values = ([1.0, 1.0], [3.0, math.nan], [math.nan, math.nan], [2.0, math.nan])
+    runs = [dataclasses.replace(first, course=np.array([each])) for each in values]
+    assert np.array_equal(_median(runs), [[2.5, math.nan]], equal_nan=True)
+
+
 @given(st.floats(-1e6, 1e6), st.floats(1e-6, 1e6))
 def test_ticks_are_few_round_and_within(low, size):
     """An axis names two to eleven values inside its range, all one step apart."""
@@ -129,3 +138,15 @@ def test_a_plot_draws_steps_and_leaves_gaps():
     assert y0 == y1
     assert x1 == x2
     assert float(y2) < float(y1)
+
+
+def test_labels_of_whole_decades_stand_inside_the_picture():
+    """The last decade's number is centred on the edge of the field, with room for its half."""
+    for last in (10, 1_000, 1_000_000):
+        generations = np.array([1, last])
+        picture = plot("FoS", "FoS", [Curve("s0", generations, np.array([1.0, 2.0]))])
+        place, number = re.findall(
+            r'x="([\d.]+)" y="[\d.]+" text-anchor="middle">([\d,]+)<', picture
+        )[-1]
+        assert number == f"{last:,}"
+        assert float(place) + 0.6 * 11 * len(number) / 2 <= WIDTH + 2

@@ -16,6 +16,7 @@ from grasp_xl.commands.preparing import prepare, refuse_infeasible
 from grasp_xl.errors import OutputError, Problem, UsageError
 from grasp_xl.fitment.material import MATERIALS
 from grasp_xl.fitment.part_file import Reading
+from grasp_xl.printable import printable
 from grasp_xl.search.exact import ExactSettings, Proof, solve
 from grasp_xl.search.stop import Interrupt
 from grasp_xl.search.warm import load_exact_search
@@ -220,9 +221,9 @@ def _settle(
     books: list[Book | None] = []
     warnings: list[Problem] = []
     sources: list[tuple[str, Book | Mapping[str, Any]]] = [
-        (path.stem, read_book(path)) for path in description.workbooks
+        (printable(path.stem), read_book(path)) for path in description.workbooks
     ]
-    sources += [(each["file"].stem, each) for each in description.fits]
+    sources += [(printable(each["file"].stem), each) for each in description.fits]
     for part, (name, source) in enumerate(sources, 1):
         combined = list(_combinations(varied, fitted=not isinstance(source, Book)))
         for variant, values in enumerate(combined, 1):

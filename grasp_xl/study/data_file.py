@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Iterable, Iterator
 from importlib.util import find_spec
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING
 
 import numpy as np
 
-from grasp_xl.errors import OutputError, UsageError
-from grasp_xl.search.result import gene_columns, measured_rows
-from grasp_xl.study.plan import Plan, Trial
+from grasp_xl.errors import UsageError
+from grasp_xl.search.result import empty_trace, gene_columns, measured_rows
+from grasp_xl.study.plan import Case, Plan, Trial
 from grasp_xl.study.trial import Record
+from grasp_xl.workbook.saving import replacing
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -24,8 +23,21 @@ CSV, PARQUET = ".csv", ".parquet"
 SUFFIXES = (CSV, PARQUET)
 """How the name of such a file may end."""
 
-RUN_COLUMNS = ("case", "part", "variant", "scenario", "run", "label", "seed")
+RUN_TYPES = {
+    "case": "string",
+    "part": "string",
+    "variant": "int64",
+    "scenario": "string",
+    "run": "int64",
+    "label": "string",
+    "seed": "int64",
+}
+"""Types of the columns that tell a run, so that every part of a table has the same."""
+RUN_COLUMNS = tuple(RUN_TYPES)
 """What tells a run; the varied parameters follow."""
+
+RENAMED = {"fos": "required_fos"}
+"""Columns of varied parameters whose own names are those of a criterion."""
 
 RUNS_AT_ONCE = 200
 """Runs that are written together: memory stays small whatever the size of a study."""
@@ -69,39 +81,44 @@ def write_data(path: Path, plan: Plan, runs: Iterable[tuple[Trial, Record]]) -> 
         If it cannot be written; the file that stood there is then as it was.
     """
     write = _write_parquet if path.suffix.lower() == PARQUET else _write_csv
-    beside: Path | None = None
-    try:
-        with tempfile.NamedTemporaryFile(
-            dir=path.parent, prefix=".grasp_xl-", suffix=".tmp", delete=False
-        ) as file:
-            beside = Path(file.name)
-        write(beside, _parts(plan, runs))
-        os.chmod(beside, 0o644)  # noqa: PTH101 (a temporary file is private)
-        beside.replace(path)
-    except OSError as error:
-        raise OutputError(
-            f"{path} cannot be written ({error.strerror}).",
-            where=str(path),
-            hint="Free some space, or name another folder with --data",
-        ) from error
-    finally:
-        if beside:
-            beside.unlink(missing_ok=True)
+    with replacing(path) as file:
+        write(file, _parts(plan, runs))
 
 
 def _parts(plan: Plan, runs: Iterable[tuple[Trial, Record]]) -> Iterator[pd.DataFrame]:
-    """Give the table in parts, all with the same columns."""
+    """Give the table in parts, all with the same columns; one without rows if there is no run."""
     import pandas as pd
 
-    varied = list(dict.fromkeys(name for case in plan.cases for name, _ in case.varied))
+    varied = list(dict.fromkeys(name for case in plan.cases for name in _varied(case)))
     widest = max((case.task.space for case in plan.cases), key=lambda space: space.gene_slots)
     genes = gene_columns(widest)
-    waiting = iter(runs)
-    while some := list(islice(waiting, RUNS_AT_ONCE)):
-        table = pd.concat([_table(plan, *run) for run in some], ignore_index=True)
-        measured = [name for name in table if name not in (*RUN_COLUMNS, *varied, *genes)]
+    types = RUN_TYPES | dict.fromkeys(varied, "string") | dict.fromkeys(genes, "Int64")
+
+    def part(tables: list[pd.DataFrame]) -> pd.DataFrame:
+        table = pd.concat(tables, ignore_index=True)
+        measured = [name for name in table if name not in types]
         table = table.reindex(columns=[*RUN_COLUMNS, *varied, *measured, *genes])
-        yield table.astype(dict.fromkeys(genes, "Int64") | dict.fromkeys(varied, "string"))
+        return table.astype(types)
+
+    waiting = iter(runs)
+    some = list(islice(waiting, RUNS_AT_ONCE))
+    if not some:
+        yield part([_without_rows(plan.cases[0])])
+    while some:
+        yield part([_table(plan, *run) for run in some])
+        some = list(islice(waiting, RUNS_AT_ONCE))
+
+
+def _varied(case: Case) -> dict[str, str]:
+    """Return the columns of the varied parameters, and their values."""
+    return {RENAMED.get(name, name): value for name, value in case.varied}
+
+
+def _without_rows(case: Case) -> pd.DataFrame:
+    import pandas as pd
+
+    space = case.task.space
+    return pd.DataFrame(measured_rows(space, case.task.rules, empty_trace(space)))
 
 
 def _table(plan: Plan, trial: Trial, record: Record) -> pd.DataFrame:
@@ -123,18 +140,17 @@ def _table(plan: Plan, trial: Trial, record: Record) -> pd.DataFrame:
         trial.label,
         trial.seed,
     )
-    for name, value in (*zip(RUN_COLUMNS, told, strict=True), *case.varied):
+    for name, value in (*zip(RUN_COLUMNS, told, strict=True), *_varied(case).items()):
         table[name] = value
     return table
 
 
-def _write_csv(path: Path, parts: Iterable[pd.DataFrame]) -> None:
-    with path.open("w", encoding="utf-8", newline="") as file:
-        for number, part in enumerate(parts):
-            part.to_csv(file, index=False, header=number == 0, lineterminator="\n")
+def _write_csv(file: IO[bytes], parts: Iterable[pd.DataFrame]) -> None:
+    for number, part in enumerate(parts):
+        file.write(part.to_csv(index=False, header=number == 0, lineterminator="\n").encode())
 
 
-def _write_parquet(path: Path, parts: Iterable[pd.DataFrame]) -> None:
+def _write_parquet(file: IO[bytes], parts: Iterable[pd.DataFrame]) -> None:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -142,7 +158,7 @@ def _write_parquet(path: Path, parts: Iterable[pd.DataFrame]) -> None:
     try:
         for part in parts:
             table = pa.Table.from_pandas(part, preserve_index=False)
-            writer = writer or pq.ParquetWriter(path, table.schema)
+            writer = writer or pq.ParquetWriter(file, table.schema)
             writer.write_table(table.cast(writer.schema))
     finally:
         if writer:

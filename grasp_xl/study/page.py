@@ -175,11 +175,9 @@ def _course(case: CaseOutcome, outcome: Outcome) -> tuple[IntArray, FloatArray]:
 
 
 def _median(outcomes: Sequence[Outcome]) -> FloatArray:
-    """Return the median course, where at least half of the runs have a value."""
+    """Return the median course, where more than half of the runs have a value."""
     courses = np.array([outcome.course for outcome in outcomes])
-    missing = np.isnan(courses)
-    filled = np.where(missing, np.inf, courses)
-    middle = np.sort(filled, axis=0)[(len(courses) - 1) // 2]
+    middle = np.median(np.where(np.isnan(courses), np.inf, courses), axis=0)
     return np.where(np.isfinite(middle), middle, np.nan)
 
 

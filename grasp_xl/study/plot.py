@@ -12,8 +12,8 @@ import numpy as np
 from grasp_xl.space import FloatArray, IntArray
 
 WIDTH, HEIGHT = 460, 260
-LEFT, RIGHT, TOP, BOTTOM = 64, 12, 28, 40
-"""Margins of the plot's field (pixels)."""
+LEFT, RIGHT, TOP, BOTTOM = 64, 28, 28, 40
+"""Margins of the plot's field (pixels); right, half of the label 1,000,000 has room."""
 TICKS = 5
 """About how many values the vertical axis names."""
 ROOM = 0.05

@@ -5,8 +5,10 @@ from __future__ import annotations
 import errno
 import os
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+from typing import IO
 
 from grasp_xl.errors import OutputError, UsageError
 
@@ -162,6 +164,19 @@ def save(content: bytes, target: Path) -> None:
     OutputError
         If that fails; the target is then as it was.
     """
+    with replacing(target) as file:
+        file.write(content)
+
+
+@contextmanager
+def replacing(target: Path) -> Iterator[IO[bytes]]:
+    """Give a new file beside the target to write to; move it into place once it is whole.
+
+    Raises
+    ------
+    OutputError
+        If that fails; the target is then as it was.
+    """
     beside: Path | None = None
     try:
         target = _resolved(target)  # a link stays a link
@@ -169,7 +184,7 @@ def save(content: bytes, target: Path) -> None:
             dir=target.parent, prefix=".grasp_xl-", suffix=".tmp", delete=False
         ) as file:
             beside = Path(file.name)
-            file.write(content)
+            yield file
             file.flush()
             os.fsync(file.fileno())
         beside.chmod(_mode(target))
