@@ -59,7 +59,8 @@ def _summary(study: Study) -> str:
     )
     generations = sorted({case.task.generations for case in plan.cases})
     told = (
-        f"{len(plan.cases):,} cases, {plan.runs:,} runs each from {starts}, "
+        f"{len(plan.cases):,} case{'s' * (len(plan.cases) > 1)}, {plan.runs:,} "
+        f"run{'s' * (plan.runs > 1)} each from {starts}, "
         f"{', '.join(f'{each:,}' for each in generations)} generations, seed {plan.seed}."
     )
     if not study.complete:
