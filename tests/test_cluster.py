@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 import signal
 import socket
+import sqlite3
 import subprocess
 import sys
+import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import closing, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 
@@ -29,7 +31,8 @@ from grasp_xl.study.trial import Record, Work
 class Cluster:
     """A scheduler on this machine, and the workers that a test starts and kills."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, env: Mapping[str, Mapping[str, str]] | None = None) -> None:
+        self.env = env or {}
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             self.address = f"tcp://127.0.0.1:{free.getsockname()[1]}"
@@ -61,12 +64,15 @@ class Cluster:
     def _started(self, what: str, *words: str) -> subprocess.Popen[bytes]:
         program = [sys.executable, "-m", "dask", what, *words]
         quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        return subprocess.Popen(program, **quiet, env={**os.environ})  # noqa: S603
+        env = {**os.environ, **self.env.get(what, {})}
+        return subprocess.Popen(program, **quiet, cwd=self.folder, env=env)  # noqa: S603
 
 
 @contextmanager
-def a_cluster(folder: Path, workers: int) -> Iterator[Cluster]:
-    made = Cluster(folder)
+def a_cluster(
+    folder: Path, workers: int, env: Mapping[str, Mapping[str, str]] | None = None
+) -> Iterator[Cluster]:
+    made = Cluster(folder, env)
     try:
         for _ in range(workers):
             made.add_worker()
@@ -169,7 +175,9 @@ def test_a_scheduler_that_goes_is_told_in_a_sentence(tmp_path):
     assert len(done) >= 3
 
 
-@pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "nonsense://x", "127.0.0.1:x"])
+@pytest.mark.parametrize(
+    "address", ["tcp://127.0.0.1:1", "nonsense://x", "127.0.0.1:x", "tls://127.0.0.1:1"]
+)
 def test_an_address_without_a_scheduler_is_told_in_a_sentence(address, monkeypatch):
     """Nobody waits for ever for a scheduler that is not there."""
     monkeypatch.setattr(cluster, "CONNECT_SECONDS", 1)
@@ -185,3 +193,71 @@ def test_workers_of_another_version_are_refused(two_workers, monkeypatch):
     monkeypatch.setattr(cluster, "__version__", "0.0.0")
     with pytest.raises(UsageError, match=r"needs 0\.0\.0"):
         runs_on(two_workers, plan_of(BRACKET, runs=1))
+
+
+def test_an_interrupt_is_heard_when_no_worker_is_left(tmp_path):
+    """The only worker is killed: the study waits for another one, but not for somebody's wish to stop."""
+    plan, interrupt = plan_of(BRACKET, runs=500, generations=20_000), Interrupt()
+    later = threading.Timer(3, setattr, (interrupt, "asked", True))
+    with a_cluster(tmp_path, 1) as made:
+
+        def kill(records: dict[str, Record]) -> None:
+            if len(records) == 3:
+                made.kill(made.workers[0])
+                later.start()
+
+        began = time.monotonic()
+        records = runs_on(made, plan, kill, interrupt)
+    assert 3 <= len(records) < len(plan)
+    assert time.monotonic() - began < 20
+
+
+@pytest.mark.parametrize(
+    ("what", "sentence"), [("worker", "cannot run grasp_xl"), ("scheduler", "cannot read")]
+)
+def test_a_machine_without_the_program_is_told_in_a_sentence(what, sentence, tmp_path):
+    """Dask alone is not enough, neither on a worker nor where the scheduler runs."""
+    missing = "raise ModuleNotFoundError('No module named grasp_xl')"
+    (tmp_path / "first").mkdir()
+    (tmp_path / "first" / "grasp_xl.py").write_text(missing, encoding="utf-8")
+    env = {what: {"PYTHONPATH": str(tmp_path / "first")}}
+    with a_cluster(tmp_path, 1, env) as made, pytest.raises(UsageError, match=sentence):
+        runs_on(made, plan_of(BRACKET, runs=1))
+
+
+def test_something_else_that_listens_is_told_in_a_sentence(monkeypatch):
+    """A port where somebody accepts connections and says nothing is waited for no longer than any."""
+    monkeypatch.setattr(cluster, "CONNECT_SECONDS", 1)
+    began = time.monotonic()
+    with socket.socket() as silent:
+        silent.bind(("127.0.0.1", 0))
+        silent.listen()
+        address = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
+        with pytest.raises(OutputError, match="No Dask scheduler answers"):
+            run_on_cluster(address, [], [], {}.__setitem__, Interrupt())
+    assert time.monotonic() - began < 20
+
+
+def test_dask_says_nothing_of_its_own_when_the_scheduler_goes(tmp_path):
+    """A person at the terminal reads one sentence, and no traceback of Dask's."""
+    with a_cluster(tmp_path, 1) as made:
+        words = [str(BRACKET), "--quiet", "--runs", "2000", "-o", str(tmp_path / "s.xlsx")]
+        program = [sys.executable, "-m", "grasp_xl", "study", *words, "--scheduler", made.address]
+        with subprocess.Popen(program, stderr=subprocess.PIPE, text=True) as study:  # noqa: S603
+            while study.poll() is None and not some_runs(tmp_path / "s.runs"):
+                time.sleep(0.05)
+            made.kill(made.scheduler)
+            _, said = study.communicate(timeout=60)
+    assert study.returncode == 3
+    assert "does not answer any more" in said
+    assert "Traceback" not in said
+    assert "distributed" not in said
+
+
+def some_runs(file: Path) -> bool:
+    """Tell whether a study has kept runs by now."""
+    if not file.exists():
+        return False
+    with closing(sqlite3.connect(file)) as base, suppress(sqlite3.OperationalError):
+        return bool(base.execute("SELECT COUNT(*) FROM runs").fetchone()[0])
+    return False
