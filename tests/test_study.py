@@ -438,17 +438,21 @@ def test_a_study_with_sweeps_has_a_case_for_each_combination(tmp_path):
 
 
 def test_a_sweep_of_the_pitch_fits_the_part_anew(tmp_path):
-    """A finer pitch of a fitted part gives more places."""
+    """A finer pitch of a fitted part gives more places; its runs have workbooks of their own, too."""
     described = tmp_path / "study.toml"
     described.write_text(
         "runs = 1\nprove = false\ngenerations = 50\npitch = [20, 40]\n[[fit]]\n"
         f"file = {str(WORKBOOKS / 'bracket.step')!r}\ncup = 'SAF 40 NBR-60 M10-AG'\ncup_price = 10\n"
         "magnet = 'SGM-HP 30 G1/8-IG'\nmagnet_price = 30\n"
     )
+    output = StudyOutput(tmp_path / "s.xlsx", workbooks=tmp_path / "own")
     studied = study_files(
-        *(read_description(described), Parameters(fos=1.0), StudyOutput(tmp_path / "s.xlsx")),
+        *(read_description(described), Parameters(fos=1.0), output),
         *(run_here, Interrupt()),
     )
+    own = sorted(path.name for path in (tmp_path / "own").iterdir())
+    assert own == [f"P1V{v}S{s}R1.xlsx" for v in (1, 2) for s in (1, 2)]
+    assert read_book(tmp_path / "own" / own[0]).space.kinds[0].total > 0
     fine, coarse = (
         [kind.total for kind in case.case.task.space.kinds] for case in studied.study.cases
     )

@@ -32,7 +32,9 @@ from grasp_xl.study.summary import Study
 from grasp_xl.study.trial import Record, Work, run_search
 from grasp_xl.task import Parameters, Task, settle
 from grasp_xl.workbook.book import Book, read_book
+from grasp_xl.workbook.run_log import Origin
 from grasp_xl.workbook.saving import check_place, check_target, refuse_theirs, save
+from grasp_xl.workbook.writing import full_workbook
 
 RUNS, SEED = 2, 1
 """Of a study that says nothing else: two runs of each start, as in chapter 6."""
@@ -362,8 +364,6 @@ def _write_workbooks(
         if interrupt.asked:
             break
         book, case = books[trial.case], plan.cases[trial.case]
-        if book is None:
-            continue
         target = folder / f"{trial.label}.xlsx"
         lost = replaced(Output(target, force=output.force))
         began = now()
@@ -372,7 +372,11 @@ def _write_workbooks(
         settings = replace(case.task.settings, seed=trial.seed, user_start=user_start)
         said = replace(case.task.parameters, seed=trial.seed, user_start=user_start)
         task = replace(case.task, settings=settings, parameters=said).warned(lost)
-        save(written_book(task, result, book, began).content, target)
+        if book:
+            written = written_book(task, result, book, began)
+        else:  # a part that was fitted for the study
+            written = full_workbook(task, result, Origin(case.name, "", began, now()))
+        save(written.content, target)
         links[trial.label] = _seen_from(output.path.parent, target)
     return links
 
