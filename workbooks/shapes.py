@@ -43,6 +43,9 @@ Axis = Literal["x", "y", "z"]
 TIME_STAMP = "2026-01-01T00:00:00"
 """Of every file, so that a model that did not change gives the same file."""
 
+SURFACE_CURVES = "write.surfacecurve.mode"
+"""OpenCASCADE's setting whether edges are also written as curves on their faces."""
+
 SHORTEST_MM = 1e-7
 """Sides between two arcs that are shorter are none."""
 
@@ -100,8 +103,10 @@ def write_step(solid: Shape, name: str, path: Path) -> None:
     for printer in list(Message.DefaultMessenger_s().Printers()):
         Message.DefaultMessenger_s().RemovePrinter(printer)  # it writes to standard output
     writer = STEPControl_Writer()
-    Interface_Static.SetIVal_s("write.surfacecurve.mode", 0)  # curves in space are enough
+    usual = Interface_Static.IVal_s(SURFACE_CURVES)  # a setting of the whole program
+    Interface_Static.SetIVal_s(SURFACE_CURVES, 0)  # curves in space are enough
     writer.Transfer(solid, STEPControl_AsIs)
+    Interface_Static.SetIVal_s(SURFACE_CURVES, usual)
     model = writer.Model()
     entities = (model.Value(number) for number in range(1, 1 + model.NbEntities()))
     product = next(entity for entity in entities if isinstance(entity, StepBasic_Product))
