@@ -14,7 +14,7 @@ from grasp_xl.study.summary_sheet import write_summary
 from grasp_xl.workbook.pen import Pen
 from grasp_xl.workbook.stamp import PLACEHOLDER, STAMP_PROPERTY, stamped
 from grasp_xl.workbook.styles import Formats
-from grasp_xl.workbook.writing import new_book
+from grasp_xl.workbook.writing import AT_NO_TIME, new_book
 
 SUMMARY, RUNS = "Summary", "Runs"
 
@@ -34,7 +34,7 @@ def study_workbook(study: Study, links: Mapping[str, str] | None = None) -> byte
         The file; but for the seconds of runs and proofs it is the same for the same study.
     """
     file = io.BytesIO()
-    book = new_book(file)
+    book = new_book(file, AT_NO_TIME)
     formats = Formats(book)
     told = f"Seed {study.plan.seed}, {study.done:,} of {len(study.plan):,} runs"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from datetime import datetime
 
 import xlsxwriter
 
@@ -32,6 +33,9 @@ from grasp_xl.workbook.stamp import PLACEHOLDER, STAMP_PROPERTY, stamped
 from grasp_xl.workbook.styles import BOOK_FONT_SIZE, FIXED_FONT, Formats
 from grasp_xl.workbook.trade_offs_sheet import TradeOffs, write_trade_offs
 from grasp_xl.workbook.written import CellValue, WrittenBook
+
+AT_NO_TIME = datetime(1980, 1, 1)  # noqa: DTZ001 (a workbook's times have no zone)
+"""When a workbook was made that is to be the same whenever that was; ZIP's first day."""
 
 
 def full_workbook(
@@ -159,7 +163,7 @@ def _still_listed(picks: Picks, result: Result, trade_offs: TradeOffs | None) ->
 def export_workbook(space: OptionSpace, part: PartRecord | None = None) -> WrittenBook:
     """Write an option space as CAD exports it, values only; and the sheet ``Part``, if given."""
     file = io.BytesIO()
-    book = new_book(file)
+    book = new_book(file, AT_NO_TIME)
     formats = Formats(book)
     pens = [Pen(book, formats, layout.OPTION_SPACE)]
     write_option_space(pens[0], space, live=False)
@@ -171,8 +175,11 @@ def export_workbook(space: OptionSpace, part: PartRecord | None = None) -> Writt
     return WrittenBook(stamped(file.getvalue()), {pen.name: pen.written for pen in pens}, {})
 
 
-def new_book(file: io.BytesIO) -> xlsxwriter.Workbook:
-    """Begin a workbook in our font and by our name, in which text is never taken for a formula."""
+def new_book(file: io.BytesIO, created: datetime | None = None) -> xlsxwriter.Workbook:
+    """Begin a workbook in our font and by our name, in which text is never taken for a formula.
+
+    It says when it was made: now, unless ``created`` says otherwise.
+    """
     book = xlsxwriter.Workbook(
         file,
         {
@@ -184,7 +191,7 @@ def new_book(file: io.BytesIO) -> xlsxwriter.Workbook:
             "strings_to_numbers": False,
         },
     )
-    book.set_properties({"author": f"grasp_xl {__version__}"})
+    book.set_properties({"author": f"grasp_xl {__version__}", "created": created})
     return book
 
 
